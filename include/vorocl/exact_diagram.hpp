@@ -16,17 +16,17 @@ struct ExactOptions {
 /// of the one that comes first in row-major order of position. Enqueues and returns.
 ///
 /// Exact: all distances are integers, and the labels are the same on every device, for every tuning and,
-/// where no two seeds share a pixel, for every order of the seeds. Where seeds are dense, the nearest seed of
-/// each row and then the best row is taken (as in separable distance transforms); where they are not, those
-/// seeds near that no other one beats at all four corners of a bin (a square of pixels) are tried; where they
-/// are sparse, these candidates are searched from coarse bins to fine ones. Cost: in proportion to the
-/// pixels, whatever the distribution of the seeds, within a factor of a few (docs/performance.md). 5.4 bytes
-/// of device memory per pixel, the labels included, and 16 per seed besides its position. Throws Error if
-/// seeds and diagram do not fit together or the device has too little memory.
+/// where no two seeds share a pixel, for every order of the seeds. Where seeds at the centres of pixels are
+/// dense, the nearest seed of each row and then the best row is taken (as in separable distance transforms);
+/// else those seeds near that no other one beats at all four corners of a square of pixels are tried. Cost:
+/// in proportion to the pixels, whatever the distribution of the seeds, within a factor of a few
+/// (docs/performance.md). 4 bytes of device memory per pixel, the labels, and 12 per seed besides its
+/// position, and up to 10 of an index. Throws Error if seeds and diagram do not fit together or the device
+/// has too little memory.
 ///
 /// Of seeds with Snap::none the points themselves are taken: the nearest is that of the least (distance from
 /// the pixel's centre, y, x, id), in whole numbers of 1/4096 pixel. The host places the points whenever they
-/// have moved: 24 bytes of device memory per seed.
+/// have moved: 8 more bytes of device memory per seed.
 /// Throws Error too if a seed that may own a pixel is more than 262,144 pixels from the window's first one.
 /// What follows about windows costs a place in the list for each seed and image that may own a pixel.
 ///

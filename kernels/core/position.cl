@@ -64,17 +64,6 @@ static inline uint_v positions_in_grid(int x, int y, int width, int height) {
   return select(position - (uint)width, position, (uint)x + LANES < (uint_v)(uint)width);
 }
 
-// The distance between two packed positions, vectors of them. The coordinates are subtracted as 16-bit numbers, which
-// cannot overflow for real positions. The distance is then the sum of two products of 16-bit numbers, a form that
-// compilers turn into one multiply-add instruction (pmaddwd on x86).
-#define DEFINE_DISTANCE_BETWEEN(name, uint_n, short_2n, as_uint_n, as_short_2n, convert_int_n)        \
-  static inline uint_n name##_by_offset(short_2n offset) {                                            \
-    const short_2n factor = FACTOR(offset);                                                           \
-    return as_uint_n(convert_int_n(offset.even) * convert_int_n(factor.even) +                        \
-                     convert_int_n(offset.odd) * convert_int_n(factor.odd));                          \
-  }                                                                                                   \
-  static inline uint_n name(uint_n a, uint_n b) { return name##_by_offset(as_short_2n(a) - as_short_2n(b)); }
-
 // Two numbers per lane: the coordinates of a vector of positions, of 16 bits. A GPU, which takes pairs of such numbers
 // apart, gets 32 bits: a wave of jump flooding takes an eighth fewer instructions.
 #if VOROCL_WIDTH == 1
@@ -97,7 +86,18 @@ typedef short coordinates_v __attribute__((ext_vector_type(32)));
 typedef JOIN(short, COORDINATES) coordinates_v;
 #define AS_COORDINATES_V JOIN(as_short, COORDINATES)
 #endif
-DEFINE_DISTANCE_BETWEEN(distance_between, uint_v, coordinates_v, AS_UINT_V, AS_COORDINATES_V, CONVERT_INT_V)
+
+// The distance between two packed positions, vectors of them. The coordinates are subtracted as 16-bit numbers, which
+// cannot overflow for real positions. The distance is then the sum of two products of 16-bit numbers, a form that
+// compilers turn into one multiply-add instruction (pmaddwd on x86).
+static inline uint_v distance_between_by_offset(coordinates_v offset) {
+  const coordinates_v factor = FACTOR(offset);
+  return AS_UINT_V(CONVERT_INT_V(offset.even) * CONVERT_INT_V(factor.even) +
+                   CONVERT_INT_V(offset.odd) * CONVERT_INT_V(factor.odd));
+}
+static inline uint_v distance_between(uint_v a, uint_v b) {
+  return distance_between_by_offset(AS_COORDINATES_V(a) - AS_COORDINATES_V(b));
+}
 
 // The distance between two packed positions of the grid, the shorter way round along periodic axes; `period` is that of
 // periods().
@@ -118,11 +118,6 @@ static inline uint_v distance_to_label_in_grid(uint_v position, uint_v pixel, ui
   return distance_in_grid(position, pixel, period) | (position & EMPTY_BIT);
 }
 
-// The same where no way goes round: between positions that stand for images of the seeds too.
-static inline uint_v distance_to_label(uint_v position, uint_v pixel) {
-  return distance_between(position, pixel) | (position & EMPTY_BIT);
-}
-
 // THE TIE RULE: of the seeds at the least distance, the one that comes first in row-major order of position wins. That
 // is the unsigned order of packed positions. The macros take numbers and vectors.
 #define COMES_FIRST(seed, other) ((seed) < (other))
@@ -133,11 +128,6 @@ static inline uint_v distance_to_label(uint_v position, uint_v pixel) {
 // it, if it comes first.
 static inline uint_v first_of_nearest(uint_v best, uint_v candidate, uint_v distance, uint_v least) {
   return select(best, min(best, candidate), distance == least);
-}
-
-// The seed that wins among the lanes of a vector.
-static inline uint winning_lane(uint_v seeds, uint_v distances) {
-  return lane_min(select((uint_v)0xffffffffu, seeds, distances == lane_min(distances)));
 }
 
 #endif

@@ -21,12 +21,10 @@ typedef int int_v;
 #define LANES 0u
 #define LOAD_VECTOR(pointer) (*(pointer))
 #define STORE_VECTOR(values, pointer) (*(pointer) = (values))
-#define STORE_WHOLE_VECTOR STORE_VECTOR
 #define LOAD_BYTES(pointer) ((uint)*(pointer))
 #define AS_INT_V as_int
 #define AS_UINT_V as_uint
 #define CONVERT_INT_V convert_int
-#define CONVERT_INT_V_DOWN convert_int_rtn
 #define CONVERT_FLOAT_V convert_float
 // any() of a scalar looks at the sign bit, and a scalar comparison gives 1, not -1.
 #define ANY(condition) (condition)
@@ -35,16 +33,10 @@ typedef JOIN(uint, VOROCL_WIDTH) uint_v;
 typedef JOIN(int, VOROCL_WIDTH) int_v;
 #define LOAD_VECTOR(pointer) JOIN(vload, VOROCL_WIDTH)(0, pointer)
 #define STORE_VECTOR(values, pointer) JOIN(vstore, VOROCL_WIDTH)(values, 0, pointer)
-// To global memory, in one piece: PoCL's vstore() makes two, and its compiler then makes the values in two halves.
-typedef struct __attribute__((packed)) {
-  uint_v values;
-} unaligned_v;
-#define STORE_WHOLE_VECTOR(vector, pointer) (((global unaligned_v*)(pointer))->values = (vector))
 #define LOAD_BYTES(pointer) JOIN(convert_uint, VOROCL_WIDTH)(JOIN(vload, VOROCL_WIDTH)(0, pointer))
 #define AS_INT_V JOIN(as_int, VOROCL_WIDTH)
 #define AS_UINT_V JOIN(as_uint, VOROCL_WIDTH)
 #define CONVERT_INT_V JOIN(convert_int, VOROCL_WIDTH)
-#define CONVERT_INT_V_DOWN JOIN(CONVERT_INT_V, _rtn)
 #define CONVERT_FLOAT_V JOIN(convert_float, VOROCL_WIDTH)
 #define ANY(condition) any(condition)
 #endif
@@ -108,17 +100,6 @@ static inline uint16 permute_16(uint16 table, uint16 at) {
                   table[at.se], table[at.sf]);
 }
 #define permute JOIN(permute_, VOROCL_WIDTH)
-
-// The values at the indices in a table of 1, 2, 3 or 4 vectors.
-static inline uint_v look_up_in_1(const uint* table, uint_v at) { return permute(LOAD_VECTOR(table), at); }
-#define DEFINE_LOOK_UP(name, name_of_one_less, vectors)                                     \
-  static inline uint_v name(const uint* table, uint_v at) {                                 \
-    const uint first = (vectors - 1) * VOROCL_WIDTH;                                        \
-    return select(name_of_one_less(table, at), permute(LOAD_VECTOR(table + first), at), at >= first); \
-  }
-DEFINE_LOOK_UP(look_up_in_2, look_up_in_1, 2)
-DEFINE_LOOK_UP(look_up_in_3, look_up_in_2, 3)
-DEFINE_LOOK_UP(look_up_in_4, look_up_in_3, 4)
 
 // The values of a table at a vector of indices.
 #define LANE(i) table[at.s##i]

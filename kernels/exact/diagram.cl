@@ -1,5 +1,3 @@
-// The exact diagram: all kernels, in the order of their launches. docs/exact.md says how they work together.
+// The program of exact diagrams of planes in the vector shape.
 
-#include "exact/make_index.cl"
-#include "exact/near.cl"
-#include "exact/far.cl"
+#include "exact/tiles.cl"

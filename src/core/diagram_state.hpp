@@ -97,6 +97,11 @@ class Filling {
   const SeedsFrame& seeds() const { return *next_.seeds; }
   const Placement& placement() const { return *next_.placement; }
 
+  /// The seeds in the window's pixels, as far as it is known which are outside.
+  std::size_t seeds_inside() const {
+    return seeds().size - (placement().outer ? placement().outer->outside : 0);
+  }
+
   Metric metric() const { return next_.metric; }
 
   /// Takes the places of the seeds, which must be points, for the positions that the labels are made of.

@@ -33,7 +33,7 @@ bool are_crowded(const PixelGrid& volume, const std::vector<std::uint32_t>& voxe
 }
 
 bool kernels_go_round(const Window& window, const PixelGrid& shown) {
-  constexpr int most = 32000;  // margins of the exact engine's index must fit beside a period
+  constexpr int most = 32000;  // ways across the ends of periods must fit in 16 bits
   return window.is_whole() && !window.grid().is_tilted() && shown.periodic() == window.periodic() &&
          (!shown.periodic_x() || shown.width() <= most) && (!shown.periodic_y() || shown.height() <= most);
 }

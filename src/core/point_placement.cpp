@@ -11,7 +11,7 @@
 #include "runtime/buffer.hpp"
 #include "vorocl/error.hpp"
 // Last: it defines macros.
-#include "exact/points/sizes.cl"
+#include "exact/sizes.cl"
 
 namespace vorocl {
 

@@ -120,7 +120,7 @@ void each_place(const Region& region, const Images& images, const Place& seed, U
 }
 
 /// Rules out places that own no pixel of the region. Whatever is nearer at the region's four corners is
-/// nearer at all its pixels (kernels/exact/dominance.cl says why). Along the region's rim stand witnesses:
+/// nearer at all its pixels (docs/exact.md says why). Along the region's rim stand witnesses:
 /// the places nearest to each stretch of it, and one more in the middle. A place is held against that and the
 /// witness of the stretch that it is nearest to.
 class Rim {

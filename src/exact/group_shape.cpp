@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "exact/index.hpp"
+#include "exact/group_index.hpp"
 #include "exact/outer.hpp"
 #include "runtime/buffer.hpp"
 #include "runtime/device_state.hpp"
@@ -61,9 +61,9 @@ Report exact_diagram_in_groups(Filling& filling, DiagramState& state) {
   const auto kernel = [&](const char* name, std::size_t items_of_group) -> Kernel& {
     return filling.kernel(device, file, name).in_groups_of(items_of_group);
   };
-  const cl::Event first = make_index(filling, state, device, memory.index, Shape::group, file);
+  const cl::Event first = make_index(filling, state, device, memory.index, file);
   const auto& [bits, word_starts, starts, list, ids, bit_of_seed, duplicates, pyramid] = memory.index;
-  const int top = top_level(IndexFrame(grid, Shape::group));
+  const int top = top_level(IndexFrame(grid));
   kernel("label_dense_patches", items)
       .over_items(patches * items, bits, starts, word_starts, list, ids, width, height, state.labels,
                   memory.pending, memory.queue);

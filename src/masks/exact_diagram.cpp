@@ -39,8 +39,10 @@ bool labels_by_passes(const Filling& filling, const DiagramState& state) {
   if (filling.seeds().are_points) return false;
   const Placement& placement = filling.placement();
   // Of fewer seeds the ways by their index take a shorter time (measured).
-  constexpr std::size_t pixels_per_seed = 24;
-  return placement.is_crowded || filling.seeds().size > placement.grid.pixels() / pixels_per_seed;
+  const std::size_t pixels_per_seed = placement.grid.is_volume()              ? 24
+                                      : filling.metric() == Metric::euclidean ? 28
+                                                                              : 40;
+  return placement.is_crowded || filling.seeds_inside() > placement.grid.pixels() / pixels_per_seed;
 }
 
 Report exact_diagram_by_passes(Filling& filling, DiagramState& state) {

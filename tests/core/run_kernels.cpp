@@ -428,10 +428,11 @@ int main() {
       make_diagrams(shaped, grid, metric);
       make_seeds(shaped, grid);
     }
-    for (const int rows : {17, 66}) {  // few seeds, and so many that passes label the plane
+    for (const int rows : {9, 66}) {  // few seeds, and so many that passes label the plane
       make_exact_diagrams(shaped, Grid(176, 90), rows, metric);
       make_exact_diagrams(shaped, Grid(140, 66, Axes::xy), rows, other);
     }
+    if (!in_groups) make_exact_diagrams(shaped, Grid(520, 260), 1, metric);  // a region has one list
     make_windows(shaped, metric);
     make_diagrams_of_points(shaped, metric);
     if (!in_groups) make_ring(shaped, metric);

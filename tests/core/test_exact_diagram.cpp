@@ -146,6 +146,11 @@ BOOST_AUTO_TEST_CASE(large_diagrams_against_a_tree) {
   check_against_tree({40, 32000, Axes::xy}, {{39, 31999}});
   check_against_tree({32000, 64, Axes::x}, random_pixels({32000, 64}, 30, 26));
   check_against_tree({40, 31999, Axes::xy}, random_pixels({40, 31999}, 900, 27), Metric::manhattan);
+  // Regions that have one list, and ways longer than 4,096 pixels.
+  for (const Metric metric : both_metrics) {
+    check_against_tree({9000, 600}, random_pixels({9000, 600}, 30, 29), metric, true);
+    check_against_tree({9000, 600}, random_pixels({500, 600}, 400, 30), metric);
+  }
   const Grid torus(2048, 2048, Axes::xy);
   for (const std::size_t count : {3u, 400u, 20000u})
     check_against_tree(torus, random_pixels(torus, count, 28));

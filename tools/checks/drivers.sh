@@ -21,7 +21,7 @@ run_test() { # PROGRAM SHAPE LOG: prints the program's name if it fails, or hang
   timeout 1800 "$1" -- "$2" >"$3" 2>&1 || basename "$1"
 }
 export -f run_test
-# For Intel's runtime: for AVX-512 it compiles list_candidates to an instruction that no CPU has.
+# For Intel's runtime: for AVX-512 it has compiled kernels of exact diagrams to an instruction that no CPU has.
 export CL_CONFIG_CPU_TARGET_ARCH=core-avx2
 
 run_tests() { # SHAPE LOGS

@@ -39,7 +39,7 @@ kernel_files() {
   grep -lE '^ *(VECTOR_KERNEL|kernel) void' kernels/{core,flooding,measures,motion}/*.cl
   echo kernels/exact/group/diagram.cl
   echo kernels/exact/outer.cl
-  echo kernels/exact/points/pixels.cl
+  echo kernels/exact/pixels.cl
   printf 'kernels/volumes/%s.cl\n' jump_flooding seeds
 }
 
@@ -58,7 +58,8 @@ compile() { # TARGET LIBRARY FILE OPTION...
 # What programs are built for besides a plain grid: seeds outside it, and periodic axes.
 more_options() { # FILE
   if grep -q 'plane.cl' "$1"; then printf '%s\n' -DVOROCL_OUTER_SEEDS '-DVOROCL_OUTER_SEEDS -DVOROCL_FAR'; fi
-  if [[ $1 == kernels/exact/group/diagram.cl || $1 == kernels/exact/points/pixels.cl ]]; then echo '-DVOROCL_PERIODIC_X -DVOROCL_PERIODIC_Y'; fi
+  if [[ $1 == kernels/exact/group/diagram.cl ]]; then echo '-DVOROCL_PERIODIC_X -DVOROCL_PERIODIC_Y'; fi
+  if [[ $1 == kernels/exact/pixels.cl ]]; then printf '%s\n' -DVOROCL_FRACTIONS '-DVOROCL_FRACTIONS -DVOROCL_PERIODIC_X -DVOROCL_PERIODIC_Y'; fi
   if [[ $1 == kernels/measures/* ]]; then echo '-DVOROCL_DIMENSIONS=3 -DVOROCL_PERIODIC_X -DVOROCL_PERIODIC_Y -DVOROCL_PERIODIC_Z'; fi
   if [[ $1 == kernels/volumes/* ]]; then echo '-DVOROCL_PERIODIC_X -DVOROCL_PERIODIC_Y -DVOROCL_PERIODIC_Z'; fi
 }

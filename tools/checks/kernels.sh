@@ -66,7 +66,7 @@ builds_of() { # KERNEL
       done
     fi
     if [[ $kernel == kernels/exact/* ]]; then  # the tests' own lists, nearly every one of which overflows
-      for metric in EUCLIDEAN 'MANHATTAN -DVOROCL_OUTER_SEEDS'; do
+      for metric in EUCLIDEAN 'MANHATTAN -DVOROCL_OUTER_SEEDS' 'EUCLIDEAN -DVOROCL_FRACTIONS' 'MANHATTAN -DVOROCL_FRACTIONS'; do
         echo "$width -DVOROCL_$metric -DVOROCL_NEIGHBOURS=9 $short_lists"
       done
     fi

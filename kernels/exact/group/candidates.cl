@@ -5,12 +5,18 @@
 #define VOROCL_EXACT_GROUP_CANDIDATES
 
 #include "exact/group/patch.cl"
-#include "exact/keys.cl"
 
 #define SYNC() barrier(CLK_LOCAL_MEM_FENCE)
 
+// DOMINANCE. Seed a dominates seed b in a box if a wins, by distance and tie rule, at the box's four corners. Then a wins at
+// every pixel of the box, and b is no candidate there: for the Euclidean metric the difference of the two squared
+// distances is affine in the pixel, for the Manhattan metric it is the sum of a monotone function of x and one of y,
+// and both are greatest at a corner. A bin is dominated if already its point nearest to each corner is.
+//
 // DOMINATORS: the nearest seeds known to the centre of a patch and to its four corners, and their distances from the
-// four corners. What one of them wins against at all corners is no candidate (dominance.cl).
+// four corners.
+#define CORNERS 4
+#define DOMINATORS (1 + CORNERS)
 typedef struct {
   uint place[DOMINATORS];              // the centre and the corners, packed
   uint seed[DOMINATORS];
@@ -118,7 +124,9 @@ static inline void keep_candidates(local uint* kept, local uint* kept_count, int
   SYNC();
 }
 
-// RANKED: candidates in the order of the tie rule, with what their keys (keys.cl) are made of.
+// RANKED: candidates in the order of the tie rule, with what their keys are made of. A KEY at a pixel holds, above, by how
+// much farther a candidate is than the base, and, in the lowest bits, its rank by the tie rule. The base is the seed
+// nearest to the patch's centre.
 typedef struct {
   int4 term[MOST_RANKED];
   uint value[MOST_RANKED];
@@ -127,10 +135,19 @@ typedef struct {
 #endif
 } Ranked;
 
+// A difference of distances fits in so many bits and a sign, however large the distances are. At the centre the
+// difference is not negative, as the base is the nearest seed; at one corner it is not positive, as the base
+// dominates no candidate. So it is nowhere farther from 0 than it varies in the patch, and along an axis it varies by
+// at most 2 * LAST_COORDINATE per pixel (Euclidean) or 2 per pixel (Manhattan).
+#define RANK_BITS 8
+#define DIFFERENCE_BITS 22
+#if 1 + DIFFERENCE_BITS + RANK_BITS > 32
+#error "A key does not fit in an int"
+#endif
 #if 2 * LAST_COORDINATE * (2 * ((1 << PATCH_BITS) - 1)) >= 1 << DIFFERENCE_BITS
 #error "A difference of distances in a patch does not fit in its bits"
 #endif
-#if MOST_RANKED > MOST_KEYS
+#if MOST_RANKED > 1 << RANK_BITS
 #error "A rank does not fit in the bits of a key"
 #endif
 

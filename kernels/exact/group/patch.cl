@@ -3,10 +3,19 @@
 #ifndef VOROCL_EXACT_GROUP_PATCH
 #define VOROCL_EXACT_GROUP_PATCH
 
-#include "exact/box.cl"
-#include "exact/group/sizes.cl"
+#include "exact/group/seed_index.cl"
 
 #define PATCH (1 << PATCH_BITS)
+
+// Pixels of the frame. Both ends are included.
+typedef struct {
+  int left, top, right, bottom;
+} Box;
+
+// Where a pixel's label is.
+static inline global uint* label_at(const SeedIndex* index, global uint* labels, int x, int y) {
+  return labels + (y - index->y0) * index->width + x - index->x0;
+}
 
 static inline int patches_along(int pixels) { return ((pixels - 1) >> PATCH_BITS) + 1; }
 

@@ -1,10 +1,27 @@
 // Sizes of the exact engine's group shape, for its kernels and for the host that launches them. Only speed and memory
-// depend on them.
+// depend on them. (Lengths of lists can be build options.)
 
 #ifndef VOROCL_EXACT_GROUP_SIZES
 #define VOROCL_EXACT_GROUP_SIZES
 
-#include "exact/sizes.cl"
+// A bin is a square of pixels in the index of the seeds. The sides of a bin of level 0 in pixels, and of a bin of a
+// higher level in bins of the level below, as powers of two.
+#define BIN_BITS 4
+#define FAN_BITS 2
+
+// The top of the pyramid has at most so many bins.
+#define TOP_BINS 64
+
+// Along a periodic axis the index has so many pixels more, at both ends: more than half a period.
+#define MARGIN(period) ((((period) / 2 >> BIN_BITS) + 1) << BIN_BITS)
+
+// While the index is made, counters stand behind its bits and are cleared with them.
+#define COUNTERS 2
+#define DUPLICATE_COUNT 0  // of seeds on a pixel that has one
+#define LIST_END 1         // of those parts of the list that are given away
+
+// How far rows are looked at for seeds: up to so many pixels away along each axis.
+#define REACH ((1 << BIN_BITS) - 1)
 
 // The longest period whose images the index holds: it has all of it twice, and its coordinates have 15 bits.
 #define MOST_PERIOD_OF_GROUPS 16000

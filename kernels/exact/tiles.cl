@@ -1,16 +1,16 @@
-// Exact diagrams of points in the vector shape: a work-item labels a tile, from one list if few places are there, else
+// Exact diagrams in the vector shape: a work-item labels a region or a tile, from one list if few places are there, else
 // box by box. Lists are handed down: a box's list is what a greater box's list has for it. Where no list holds the
 // places, they follow each other in parts.
 
-#ifndef VOROCL_POINTS_TILES
-#define VOROCL_POINTS_TILES
+#ifndef VOROCL_TILE_SIDES
+#define VOROCL_TILE_SIDES
 
-#include "exact/points/keys.cl"
+#include "exact/keys.cl"
 
 #define FEW_PLACES 16   // of which more are dropped by those nearest to the corners, too
 #define MOST_OF_BOX 48  // a box of 16 pixels with more is labelled in quarters
-#define FEW_OF_TILE 40  // a tile of fewer is labelled from one list
-#if POINTS_TILE != 4 * 16
+#define FEW_FOR_LIST 40  // a tile or region of fewer is labelled from one list
+#if TILE_SIDE != 4 * 16
 #error "A tile is not 4 x 4 boxes of 16 pixels a side"
 #endif
 
@@ -105,22 +105,22 @@ static inline bool wins(const scene_t* scene, int2 pixel, uint at, uint so_far) 
 
 // The part of a tile's pixels that a box has.
 static inline uint* of_box(uint* of_tile, box_t box) {
-  return of_tile + box.top % POINTS_TILE * POINTS_TILE + box.left % POINTS_TILE;
+  return of_tile + box.top % TILE_SIDE * TILE_SIDE + box.left % TILE_SIDE;
 }
 
 static inline void start_winners(box_t box, uint* of_tile) {
   uint* const so_far = of_box(of_tile, box);
   for (int y = 0; y < box.side; ++y) {
-    for (int x = 0; x < box.side; x += 8) store_uints((uint8)NO_LABEL, so_far + y * POINTS_TILE + x);
+    for (int x = 0; x < box.side; x += 8) store_uints((uint8)NO_LABEL, so_far + y * TILE_SIDE + x);
   }
 }
 
 static inline void show_winners(const scene_t* scene, box_t box, uint* of_tile) {
   uint* const so_far = of_box(of_tile, box);
   for (int y = 0; y < box.side; ++y) {
-    for (int x = 0; x < box.side; ++x) so_far[y * POINTS_TILE + x] = scene->ids[so_far[y * POINTS_TILE + x]];
+    for (int x = 0; x < box.side; ++x) so_far[y * TILE_SIDE + x] = scene->ids[so_far[y * TILE_SIDE + x]];
   }
-  show(scene, box, so_far, POINTS_TILE);
+  show(scene, box, so_far, TILE_SIDE);
 }
 
 // Lets the places of a list stand against those that won so far in a box of 8 or 16 pixels a side, in parts that keys
@@ -135,7 +135,7 @@ NOINLINE static void compare_in_parts(const scene_t* scene, const list_t* list, 
       for (int x = 0; x < box.side; ++x) {
         const int2 pixel = (int2)(box.left + x, box.top + y) * ONE_PIXEL + HALF_PIXEL;
         const uint winner = winners[y * box.side + x];
-        uint* const best = so_far + y * POINTS_TILE + x;
+        uint* const best = so_far + y * TILE_SIDE + x;
         if (*best == NO_LABEL || wins(scene, pixel, winner, *best)) *best = winner;
       }
     }
@@ -152,7 +152,7 @@ NOINLINE static int narrow(const scene_t* scene, const list_t* from, int count, 
   const int number = nearest_of(from, count, way);
   int2 nearest = (int2)(from->x[number], from->y[number]) - way;
   if (of_tile) {
-    const uint so_far = of_box(of_tile, *box)[box->side / 2 * (POINTS_TILE + 1)];
+    const uint so_far = of_box(of_tile, *box)[box->side / 2 * (TILE_SIDE + 1)];
     if (so_far != NO_LABEL) {
       const int2 place = way_to(scene, centre_of(*box), so_far);
       if (length_of(place) < length_of(nearest)) nearest = place;
@@ -176,7 +176,7 @@ NOINLINE static bool label_by_keys(const scene_t* scene, const list_t* list, int
 
 NOINLINE static void label_8_by_list(const scene_t* scene, const list_t* list, int count, box_t box) {
   if (label_by_keys(scene, list, count, box)) return;
-  uint of_tile[POINTS_TILE * POINTS_TILE];
+  uint of_tile[TILE_SIDE * TILE_SIDE];
   start_winners(box, of_tile);
   compare_in_parts(scene, list, count, box, of_tile);
   show_winners(scene, box, of_tile);
@@ -194,14 +194,28 @@ static inline void label_16_by_list(const scene_t* scene, const list_t* list, in
 }
 
 typedef struct {
-  list_t a, b, c;
+  list_t a, b, c, d;
 } lists_t;
+
+// A tile, by a list that is none of c and d.
+static inline void label_64_by_list(const scene_t* scene, const list_t* list, int count, box_t box, lists_t* lists) {
+  if (count == 1) {
+    show_one(scene, box, scene->ids[list->at[0]]);
+    return;
+  }
+  for (int i = 0; i < 16; ++i) {
+    box_t small = box_in(box, 16, i % 4, i / 4);
+    if (!is_in_grid(scene, small)) continue;
+    const int some = narrow(scene, list, count, box, &small, &lists->c, 0);
+    label_16_by_list(scene, &lists->c, some, small, &lists->d);
+  }
+}
 
 // Labels a box of which no list holds the places, part by part: `count` of them are in list b, and the walk goes on.
 NOINLINE static void label_crowd(const scene_t* scene, walk_t* walk, uint2* range, box_t box, rival_t rival, int count,
                                  lists_t* lists) {
   const int side = min(box.side, 16), boxes = box.side / side;
-  uint of_tile[POINTS_TILE * POINTS_TILE];
+  uint of_tile[TILE_SIDE * TILE_SIDE];
   start_winners(box, of_tile);
   for (; count > 0; count = gather(scene, walk, range, &lists->b, centre_of(box), rival)) {
     count = drop_by_corners(&lists->b, count, box.side);
@@ -241,7 +255,18 @@ static inline bool find_near(const scene_t* scene, box_t box, span_t limits_x, s
   }
 }
 
-// Labels a box of 64, 16 or 8 pixels a side by the places around it; false if one of 16 has a crowd.
+// Whether a box has so few places in its bins that it is labelled from one list.
+static inline bool has_few_places(const scene_t* scene, box_t box) {
+  const bins_t* const bins = &scene->bins;
+  const int first = column_of(bins, box.left), last = column_of(bins, box.left + box.side - 1);
+  uint count = 0;
+  for (int row = row_of(bins, box.top); row <= row_of(bins, box.top + box.side - 1) && count < FEW_FOR_LIST; ++row) {
+    count += scene->starts[start_of(bins, last, row) + 1] - scene->starts[start_of(bins, first, row)];
+  }
+  return count < FEW_FOR_LIST;
+}
+
+// Labels a box of 256, 64, 16 or 8 pixels a side by the places around it; false if one of 256 or 16 has a crowd.
 NOINLINE static bool label_box(const scene_t* scene, box_t box, lists_t* lists) {
   const span_t limits_x = limits_of(columns_of(box), scene->width, PERIODIC_X);
   const span_t limits_y = limits_of(rows_of(box), scene->height, PERIODIC_Y);
@@ -258,7 +283,7 @@ NOINLINE static bool label_box(const scene_t* scene, box_t box, lists_t* lists) 
   uint2 range = (uint2)(0, 0);
   int count = gather(scene, &walk, &range, &lists->b, centre_of(box), rival);
   if (is_full(count)) {
-    if (box.side == 16) return false;
+    if (box.side == 16 || box.side == REGION_SIDE) return false;
     label_crowd(scene, &walk, &range, box, rival, count, lists);
     return true;
   }
@@ -269,51 +294,67 @@ NOINLINE static bool label_box(const scene_t* scene, box_t box, lists_t* lists) 
     label_8_by_list(scene, &lists->b, count, box);
   } else if (box.side == 16) {
     label_16_by_list(scene, &lists->b, count, box, &lists->a);
+  } else if (box.side == TILE_SIDE) {
+    label_64_by_list(scene, &lists->b, count, box, lists);
   } else {
-    for (int i = 0; i < 16; ++i) {
-      box_t small = box_in(box, 16, i % 4, i / 4);
-      if (!is_in_grid(scene, small)) continue;
-      const int some = narrow(scene, &lists->b, count, box, &small, &lists->a, 0);
-      label_16_by_list(scene, &lists->a, some, small, &lists->c);
+    for (int i = 0; i < TILES_OF_REGION * TILES_OF_REGION; ++i) {
+      box_t tile = box_in(box, TILE_SIDE, i % TILES_OF_REGION, i / TILES_OF_REGION);
+      if (!is_in_grid(scene, tile)) continue;
+      const int some = narrow(scene, &lists->b, count, box, &tile, &lists->a, 0);
+      label_64_by_list(scene, &lists->a, some, tile, lists);
     }
   }
   return true;
 }
 
-// The places in the bins of a tile.
-static inline uint places_of_tile(const scene_t* scene, int left, int top) {
-  const bins_t* const bins = &scene->bins;
-  const int first = column_of(bins, left), last = column_of(bins, left + POINTS_TILE - 1);
-  uint count = 0;
-  for (int row = row_of(bins, top); row <= row_of(bins, top + POINTS_TILE - 1); ++row) {
-    count += scene->starts[start_of(bins, last, row) + 1] - scene->starts[start_of(bins, first, row)];
-  }
-  return count;
-}
-
-// Labels all tiles.
-kernel void label_tiles(global const uint* restrict starts, global const int2* restrict list,
-                        global const uint* restrict ids, global const int2* restrict order, int has_images, int bits,
-                        int width, int height, int4 region, global uint* restrict labels) {
-  const int across = ((width - 1) >> POINTS_TILE_BITS) + 1, item = (int)get_global_id(0);
-  const int left = item % across * POINTS_TILE, top = item / across * POINTS_TILE;
-  if (top >= height) return;
-  const scene_t scene = {bins_of(bits, width, height), width, height, starts, list, ids, has_images ? order : 0,
-                         labels, region};
-  lists_t lists;
-  const box_t tile = box_of(left, top, POINTS_TILE);
-  if (places_of_tile(&scene, left, top) < FEW_OF_TILE) {
-    label_box(&scene, tile, &lists);
-    return;
-  }
+static inline void label_tile(const scene_t* scene, box_t tile, lists_t* lists) {
+  if (has_few_places(scene, tile) && label_box(scene, tile, lists)) return;
   for (int i = 0; i < 16; ++i) {
     const box_t box = box_in(tile, 16, i % 4, i / 4);
-    if (!is_in_grid(&scene, box) || label_box(&scene, box, &lists)) continue;
+    if (!is_in_grid(scene, box) || label_box(scene, box, lists)) continue;
     for (int k = 0; k < 4; ++k) {
       const box_t quarter = box_in(box, 8, k % 2, k / 2);
-      if (is_in_grid(&scene, quarter)) label_box(&scene, quarter, &lists);
+      if (is_in_grid(scene, quarter)) label_box(scene, quarter, lists);
     }
   }
+}
+
+// A region is labelled as a whole if it has few places and no pixel outside the grid.
+static inline box_t region_of(int x, int y) {
+  return box_of(x / REGION_SIDE * REGION_SIDE, y / REGION_SIDE * REGION_SIDE, REGION_SIDE);
+}
+static inline bool is_labelled_as_whole(const scene_t* scene, box_t region) {
+  return region.left + REGION_SIDE <= scene->width && region.top + REGION_SIDE <= scene->height &&
+         has_few_places(scene, region);
+}
+
+#define SCENE_PARAMETERS                                                                                            \
+  global const uint *restrict starts, global const int2 *restrict list, global const uint *restrict ids,            \
+      global const int2 *restrict order, int has_images, int bits, int width, int height, int4 region,              \
+      global uint *restrict labels
+#define SCENE_OF_PARAMETERS \
+  {bins_of(bits, width, height), width, height, starts, list, ids, has_images ? order : 0, labels, region}
+
+// Labels the regions of few places.
+kernel void label_regions(SCENE_PARAMETERS) {
+  const int across = (width - 1) / REGION_SIDE + 1, item = (int)get_global_id(0);
+  const box_t box = region_of(item % across * REGION_SIDE, item / across * REGION_SIDE);
+  const scene_t scene = SCENE_OF_PARAMETERS;
+  lists_t lists;
+  if (box.top >= height || !is_labelled_as_whole(&scene, box) || label_box(&scene, box, &lists)) return;
+  for (int i = 0; i < TILES_OF_REGION * TILES_OF_REGION; ++i) {
+    label_tile(&scene, box_in(box, TILE_SIDE, i % TILES_OF_REGION, i / TILES_OF_REGION), &lists);
+  }
+}
+
+// Labels the tiles of all others.
+kernel void label_tiles(SCENE_PARAMETERS) {
+  const int across = (width - 1) / TILE_SIDE + 1, item = (int)get_global_id(0);
+  const box_t tile = box_of(item % across * TILE_SIDE, item / across * TILE_SIDE, TILE_SIDE);
+  const scene_t scene = SCENE_OF_PARAMETERS;
+  lists_t lists;
+  if (tile.top >= height || is_labelled_as_whole(&scene, region_of(tile.left, tile.top))) return;
+  label_tile(&scene, tile, &lists);
 }
 
 #endif

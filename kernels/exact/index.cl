@@ -1,18 +1,32 @@
-// The index of points: a counting sort by bins, squares of pixels whose side is a power of two. The places of a row of
+// The index of places: a counting sort by bins, squares of pixels whose side is a power of two. The places of a row of
 // bins stand next to each other, so that a range of bins of a row is one range of the list; the rows stand in any
 // order, and so do the places of one bin.
 //
 // Places outside the pixels stand in the bin at the border that is nearest to them. Rounding a coordinate into a range
 // keeps order, so that the bins of a rectangle hold all places of that rectangle, also where it ends outside.
 
-#ifndef VOROCL_POINTS_INDEX
-#define VOROCL_POINTS_INDEX
+#ifndef VOROCL_EXACT_INDEX
+#define VOROCL_EXACT_INDEX
 
 #include "core/plane.cl"
-#include "exact/points/sizes.cl"
+#include "exact/sizes.cl"
 
+// Places are whole numbers of 2^-FRACTION_BITS pixels. With the build option VOROCL_FRACTIONS they come as such, else as
+// packed positions, at the centres of whose pixels seeds are, and a bit is enough.
+#ifdef VOROCL_FRACTIONS
+#define FRACTION_BITS MOST_FRACTION_BITS
+typedef int2 given_t;
+static inline bool is_given(given_t given) { return given.x != ABSENT; }
+static inline int2 place_of(given_t given) { return given; }
+#else
+#define FRACTION_BITS 1
+typedef uint given_t;
+static inline bool is_given(given_t given) { return !(given & EMPTY_BIT); }
+static inline int2 place_of(given_t given) { return (int2)(packed_x(given), packed_y(given)) * 2 + 1; }
+#endif
 #define ONE_PIXEL (1 << FRACTION_BITS)
 #define HALF_PIXEL (ONE_PIXEL / 2)
+#define NOINLINE __attribute__((noinline))
 
 // Bins have 2^bits pixels along a side. `starts` has one value more for each row of bins: its end.
 typedef struct {
@@ -48,14 +62,14 @@ static inline global uint* table_of(global uint* tables, uint item, uint chunk, 
 }
 
 // Counts the places of each bin.
-kernel void count_points(global const int2* restrict places, uint count, uint chunk, int bits, int width, int height,
+kernel void count_places(global const given_t* restrict places, uint count, uint chunk, int bits, int width, int height,
                          global uint* restrict tables) {
   const bins_t bins = bins_of(bits, width, height);
   const uint item = (uint)get_global_id(0);
   if (item * chunk >= count) return;
   global uint* const table = table_of(tables, item, chunk, &bins);
   for (uint i = item * chunk; i < min((item + 1) * chunk, count); ++i) {
-    if (places[i].x != ABSENT) take_one(table + bin_of(&bins, places[i]) + 1, chunk);
+    if (is_given(places[i])) take_one(table + bin_of(&bins, place_of(places[i])) + 1, chunk);
   }
 }
 
@@ -83,7 +97,7 @@ kernel void start_bins(global uint* restrict tables, uint count, int bits, int w
 }
 
 // Writes the list: places, and the ids of their seeds, which are the places' own numbers unless they are given.
-kernel void list_points(global const int2* restrict places, global const uint* restrict ids, int has_ids, uint count,
+kernel void list_places(global const given_t* restrict places, global const uint* restrict ids, int has_ids, uint count,
                         uint chunk, int bits, int width, int height, global uint* restrict tables,
                         global int2* restrict list, global uint* restrict list_ids) {
   const bins_t bins = bins_of(bits, width, height);
@@ -91,8 +105,8 @@ kernel void list_points(global const int2* restrict places, global const uint* r
   if (item * chunk >= count) return;
   global uint* const table = table_of(tables, item, chunk, &bins);
   for (uint i = item * chunk; i < min((item + 1) * chunk, count); ++i) {
-    const int2 place = places[i];
-    if (place.x == ABSENT) continue;
+    if (!is_given(places[i])) continue;
+    const int2 place = place_of(places[i]);
     const uint at = take_one(table + bin_of(&bins, place) + 1, chunk);
     list[at] = place;
     list_ids[at] = has_ids ? ids[i] : i;
@@ -101,67 +115,56 @@ kernel void list_points(global const int2* restrict places, global const uint* r
 
 // --- seeds on one point ---
 //
-// None of them is nearer than another, so that lists could drop none. In bins of many places all but the lowest id are
-// moved so far away that they are never nearest.
+// None of them is nearer than another, so that lists could drop none. In bins of many places only the lowest id of a
+// point stays: a table holds where a place of some hash stands. (Where it has another one of that hash, repeats stay,
+// which costs time alone.)
 
 #define MANY_IN_BIN 64
-#define NOWHERE (0x7fffffff - (1 << 28))
-#if NOWHERE + (1 << (SIDE_BITS + FRACTION_BITS)) > 0x7fffffff
-#error "The way from a pixel to what is nowhere does not fit in an int"
-#endif
-#if NOWHERE - (1 << (SIDE_BITS + FRACTION_BITS)) <= ((1 << AWAY_BITS) + (1 << SIDE_BITS)) << FRACTION_BITS
-#error "A place that is taken may be farther than what is nowhere"
-#endif
+#define TABLE_BITS 11
+#define NOT_SEEN 0xffffffffu
 
-static inline bool stands_before(int2 a, uint id_of_a, int2 b, uint id_of_b) {
-  if (a.y != b.y) return a.y < b.y;
-  if (a.x != b.x) return a.x < b.x;
-  return id_of_a < id_of_b;
+static inline uint hash_of(int2 place) {
+  return ((uint)place.x * 0x9e3779b1u ^ (uint)place.y * 0x85ebca77u) >> (32 - TABLE_BITS);
 }
 
-// Lets the element of a heap that is being made sink to its place.
-static inline void sink(global int2* list, global uint* ids, uint root, uint count) {
-  const int2 place = list[root];
-  const uint id = ids[root];
-  for (uint child = 2 * root + 1; child < count; child = 2 * root + 1) {
-    if (child + 1 < count && stands_before(list[child], ids[child], list[child + 1], ids[child + 1])) ++child;
-    if (!stands_before(place, id, list[child], ids[child])) break;
-    list[root] = list[child];
-    ids[root] = ids[child];
-    root = child;
+// Moves the places of a range to the front, those that stay; returns where they end.
+static inline uint move_first_of_points(global int2* list, global uint* ids, local uint* seen, uint begin, uint end,
+                                        uint to) {
+  for (int i = 0; i < 1 << TABLE_BITS; ++i) seen[i] = NOT_SEEN;
+  for (uint at = begin; at < end; ++at) {
+    const int2 place = list[at];
+    const uint id = ids[at], hash = hash_of(place), first = seen[hash];
+    if (first != NOT_SEEN && all(list[first] == place)) {
+      ids[first] = min(ids[first], id);
+      continue;
+    }
+    list[to] = place;
+    ids[to] = id;
+    seen[hash] = to++;
   }
-  list[root] = place;
-  ids[root] = id;
+  return to;
 }
 
-static void sort_bin(global int2* list, global uint* ids, uint count) {
-  for (uint root = count / 2; root-- > 0;) sink(list, ids, root, count);
-  for (uint last = count - 1; last > 0; --last) {
-    const int2 place = list[0];
-    const uint id = ids[0];
-    list[0] = list[last];
-    ids[0] = ids[last];
-    list[last] = place;
-    ids[last] = id;
-    sink(list, ids, 0, last);
-  }
-}
-
-kernel void drop_repeats(global const uint* restrict starts, int bits, int width, int height,
-                         global int2* restrict list, global uint* restrict ids) {
+// A work-group of one item has a row of bins.
+kernel void drop_repeats(global uint* restrict starts, int bits, int width, int height, global int2* restrict list,
+                         global uint* restrict ids) {
+  local uint seen[1 << TABLE_BITS];
   const bins_t bins = bins_of(bits, width, height);
   const int row = (int)get_global_id(0);
   if (row >= bins.rows) return;
+  uint begin = starts[start_of(&bins, 0, row)], to = begin;
   for (int x = 0; x < bins.columns; ++x) {
-    const uint begin = starts[start_of(&bins, x, row)], count = starts[start_of(&bins, x + 1, row)] - begin;
-    if (count <= MANY_IN_BIN) continue;
-    sort_bin(list + begin, ids + begin, count);
-    int2 last = list[begin];
-    for (uint i = begin + 1; i < begin + count; ++i) {
-      const int2 place = list[i];
-      if (all(place == last)) list[i] = (int2)(NOWHERE, NOWHERE);
-      last = place;
+    global uint* const next = starts + start_of(&bins, x + 1, row);
+    const uint end = *next;
+    if (end - begin > MANY_IN_BIN) {
+      to = move_first_of_points(list, ids, seen, begin, end, to);
+    } else if (to == begin) {
+      to = end;
+    } else {
+      for (uint at = begin; at < end; ++at, ++to) list[to] = list[at], ids[to] = ids[at];
     }
+    *next = to;
+    begin = end;
   }
 }
 

@@ -1,9 +1,9 @@
 // Collecting the places around a box of pixels from the index.
 
-#ifndef VOROCL_POINTS_GATHER
-#define VOROCL_POINTS_GATHER
+#ifndef VOROCL_EXACT_GATHER
+#define VOROCL_EXACT_GATHER
 
-#include "exact/points/candidates.cl"
+#include "exact/candidates.cl"
 
 // What a work-item reads.
 typedef struct {

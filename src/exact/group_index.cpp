@@ -1,16 +1,16 @@
-#include "exact/index.hpp"
+#include "exact/group_index.hpp"
 
 #include <algorithm>
 
-#include "exact/sizes.cl"
 #include "runtime/buffer.hpp"
+// Last: it defines macros.
+#include "exact/group/sizes.cl"
 
 namespace vorocl {
 
 namespace {
 
 constexpr std::size_t pixels_of_bin = std::size_t{1} << 2 * BIN_BITS;
-constexpr std::size_t behind_list = 16;                  // lists are read in whole vectors
 constexpr std::size_t most_items_for_duplicates = 4096;  // there are seldom any seeds that share a pixel
 
 std::size_t bins_along(int pixels, int level) {
@@ -18,10 +18,7 @@ std::size_t bins_along(int pixels, int level) {
   return (static_cast<std::size_t>(pixels - 1) >> bits) + 1;
 }
 
-int frame_side(int side, bool periodic, Shape shape) {
-  if (!periodic) return side;
-  return side + 2 * (shape == Shape::group ? MARGIN_OF_GROUPS(side) : MARGIN_OF_VECTORS);
-}
+int frame_side(int side, bool periodic) { return side + (periodic ? 2 * MARGIN(side) : 0); }
 
 /// The most seeds that the index lists: each with all its images, at most one in a pixel.
 std::size_t most_listed(const PixelGrid& grid, const IndexFrame& frame, std::size_t seeds) {
@@ -33,17 +30,21 @@ std::size_t most_listed(const PixelGrid& grid, const IndexFrame& frame, std::siz
   return std::min(seeds * of_a_seed, seeds + pixels - grid.pixels());
 }
 
+std::size_t bins(const IndexFrame& frame, int level) {
+  return bins_along(frame.width, level) * bins_along(frame.height, level);
+}
+
+std::size_t bins_of_all_levels(const IndexFrame& frame) {
+  std::size_t all = 0;
+  for (int level = 0; level <= top_level(frame); ++level) all += bins(frame, level);
+  return all;
+}
+
 }  // namespace
 
-IndexFrame::IndexFrame(const PixelGrid& grid, Shape shape)
-    : width(frame_side(grid.width(), grid.periodic_x(), shape)),
-      height(frame_side(grid.height(), grid.periodic_y(), shape)) {}
-
-std::size_t bins_across(const IndexFrame& frame, int level) { return bins_along(frame.width, level); }
-std::size_t bins_down(const IndexFrame& frame, int level) { return bins_along(frame.height, level); }
-std::size_t bins(const IndexFrame& frame, int level) {
-  return bins_across(frame, level) * bins_down(frame, level);
-}
+IndexFrame::IndexFrame(const PixelGrid& grid)
+    : width(frame_side(grid.width(), grid.periodic_x())),
+      height(frame_side(grid.height(), grid.periodic_y())) {}
 
 int top_level(const IndexFrame& frame) {
   int level = 0;
@@ -51,27 +52,19 @@ int top_level(const IndexFrame& frame) {
   return level;
 }
 
-namespace {
-std::size_t bins_of_all_levels(const IndexFrame& frame) {
-  std::size_t all = 0;
-  for (int level = 0; level <= top_level(frame); ++level) all += bins(frame, level);
-  return all;
-}
-}  // namespace
-
 cl::Event make_index(Filling& filling, DiagramState& state, const Device& device, IndexMemory& memory,
-                     Shape shape, const char* file) {
+                     const char* file) {
   const PixelGrid& grid = filling.placement().grid;
   const cl::Buffer& positions = *filling.placement().positions;
   const std::size_t seeds = filling.seeds().size;
-  const IndexFrame frame(grid, shape);
+  const IndexFrame frame(grid);
   const int width = grid.width(), height = grid.height();
   const auto count = static_cast<cl_uint>(seeds);
-  const std::size_t down = bins_down(frame, 0), bit_words = bins(frame, 0) * pixels_of_bin / 32;
+  const std::size_t down = bins_along(frame.height, 0), bit_words = bins(frame, 0) * pixels_of_bin / 32;
   state.reserve(memory.bits, (bit_words + COUNTERS) * word);
   state.reserve(memory.word_starts, bit_words * word);
   state.reserve(memory.starts, (bins(frame, 0) + down) * word);
-  const std::size_t list_room = most_listed(grid, frame, seeds) + behind_list;
+  const std::size_t list_room = most_listed(grid, frame, seeds);
   state.reserve(memory.list, list_room * word);
   state.reserve(memory.ids, list_room * word);
   state.reserve(memory.bit_of_seed, seeds * word);
@@ -88,23 +81,14 @@ cl::Event make_index(Filling& filling, DiagramState& state, const Device& device
   kernel("set_bits")
       .over_items(count, positions, count, bits, bit_of_seed, duplicates, counters, width, height);
   const int top = top_level(frame);
-  if (shape == Shape::group) {
-    const std::size_t items = tuning.patch_items;
-    kernel("index_bins")
+  const std::size_t items = tuning.patch_items;
+  kernel("index_bins")
+      .in_groups_of(items)
+      .over_items(down * items, bits, pyramid, starts, word_starts, counters, width);
+  for (int level = 1; level <= top; level += 2) {
+    kernel("find_representatives")
         .in_groups_of(items)
-        .over_items(down * items, bits, pyramid, starts, word_starts, counters, width);
-    for (int level = 1; level <= top; level += 2) {
-      kernel("find_representatives_in_groups")
-          .in_groups_of(items)
-          .over_items(bins(frame, level + 1) * items, pyramid, width, height, level, top);
-    }
-  } else {
-    kernel("find_representatives").over_items(bins(frame, 0), bits, pyramid, starts, width, height);
-    for (int level = 1; level <= top; ++level) {
-      kernel("find_representatives_above").over_items(bins(frame, level), pyramid, width, height, level);
-    }
-    kernel("share_out_list").over_items(down, bits, starts, counters, width, height);
-    kernel("start_words").over_items(bins(frame, 0), bits, starts, word_starts, width, height);
+        .over_items(bins(frame, level + 1) * items, pyramid, width, height, level, top);
   }
   kernel("list_seeds")
       .over_items(count, positions, bit_of_seed, count, bits, word_starts, list, ids, width, height);

@@ -7,10 +7,10 @@
 // It is computed in float. A place stays unless that is above a margin which is greater than every error, so that
 // floats drop places and decide nothing.
 
-#ifndef VOROCL_POINTS_CANDIDATES
-#define VOROCL_POINTS_CANDIDATES
+#ifndef VOROCL_EXACT_CANDIDATES
+#define VOROCL_EXACT_CANDIDATES
 
-#include "exact/points/index.cl"
+#include "exact/index.cl"
 
 #define EIGHT ((int8)(0, 1, 2, 3, 4, 5, 6, 7))
 #ifndef MOST_IN_LIST
@@ -18,7 +18,6 @@
 #endif
 #define LIST_ROOM (MOST_IN_LIST + 3 * LANES_OF_POINTS)
 #define NUMBERS 1024  // of the places of a list
-#define NOINLINE __attribute__((noinline))
 
 #if MOST_IN_LIST < 2 * 8
 #error "A list must hold eight places besides those that it is gathered by"
@@ -126,7 +125,7 @@ static inline rival_t rival_at(int2 place, int side) {
 #ifdef VOROCL_EUCLIDEAN
   const rival_t rival = {x, y, w * (1 + 0x1p-20f), fma(x, x, y * y) * (1 + 0x1p-20f) + w * w * 0x1p-22f};
 #else
-  const rival_t rival = {x, y, w / 2, (fabs(x) + fabs(y)) * 0x1p-19f + 8};
+  const rival_t rival = {x, y, w / 2, (fabs(x) + fabs(y)) * 0x1p-19f + ONE_PIXEL * 0x1p-9f};
 #endif
   return rival;
 }

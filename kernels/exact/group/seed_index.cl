@@ -1,20 +1,14 @@
-// The index of the seeds: where seeds are, one bit per pixel, and a list of the seeds bin by bin. make_index.cl makes
-// it.
+// The index of the seeds: where seeds are, one bit per pixel, and a list of the seeds bin by bin. index.cl makes it.
 
-#ifndef VOROCL_EXACT_SEED_INDEX
-#define VOROCL_EXACT_SEED_INDEX
+#ifndef VOROCL_EXACT_GROUP_SEED_INDEX
+#define VOROCL_EXACT_GROUP_SEED_INDEX
 
-#include "exact/sizes.cl"
+#include "exact/group/sizes.cl"
 #include "core/position.cl"
 
 // THE FRAME. Along a periodic axis the index covers a margin more at both ends, where the seeds of the other end stand
-// once more: their images. (In a period shorter than the margin there are more of a seed.) So what looks no farther
-// than the margin need not know of periods. Positions and bins count from the frame's corner.
-#ifdef INDEX_OF_GROUPS
-#define MARGIN(period) MARGIN_OF_GROUPS(period)
-#else
-#define MARGIN(period) ((void)(period), MARGIN_OF_VECTORS)
-#endif
+// once more: their images. (In a short period there are several of a seed.) The margin is longer than half a period: the image that is
+// nearest to a pixel is in the frame. Positions and bins count from the frame's corner.
 static inline int margin_x(int width) { return PERIODIC_X * MARGIN(width); }
 static inline int margin_y(int height) { return PERIODIC_Y * MARGIN(height); }
 static inline int frame_width(int width) { return width + 2 * margin_x(width); }
@@ -68,7 +62,7 @@ static inline int start_of(int bin_x, int bin_y, int columns) { return bin_y * (
 typedef struct {
   int width, height;  // of the grid, in pixels
   int columns, rows;  // of the frame, in bins of level 0
-  int x0, y0;         // where the grid's first pixel is, in the coordinates of seeds and boxes: see far.cl
+  int x0, y0;         // where the grid's first pixel is, in the coordinates of seeds and boxes
   global const uint *bits, *starts, *word_starts;
   global const uint *list, *ids;  // the seeds' positions and ids
 } SeedIndex;
@@ -81,35 +75,11 @@ typedef struct {
   {width,       height, columns_of(width, 0), rows_of(height, 0), margin_x(width), margin_y(height), bits, starts, \
    word_starts, list,   ids}
 
-// The rows of bins of the frame that end where the grid does.
-static inline int rows_of_grid(const SeedIndex* index) {
-  return ((margin_y(index->height) + index->height - 1) >> BIN_BITS) + 1;
-}
-
 // Where the first pixel of a period is among `count` pixels of the frame from `first` on; `none` if it is not.
 static inline int first_of_period(int first, int count, int start, int period, int none) {
   const int near_start = start - first, near_end = start + period - first;
   if (near_start >= 0 && near_start < count) return near_start;
   return near_end >= 0 && near_end < count ? near_end : none;
-}
-
-// The remainder of a division that rounds down. Half a unit more keeps the quotient away from whole numbers, where a
-// rounding error would count.
-static inline int_v in_period(int_v at, int period) {
-  return at - period * CONVERT_INT_V_DOWN((CONVERT_FLOAT_V(at) + 0.5f) / (float)period);
-}
-
-// The position of a seed in the frame, from that of the seed or of its image. The tie rule compares these positions.
-static inline uint_v seed_of_image(const SeedIndex* index, uint_v image) {
-#ifdef VOROCL_PERIODIC
-  int_v x = AS_INT_V(image & 0xffffu) - index->x0, y = AS_INT_V(image >> 16) - index->y0;
-  if (PERIODIC_X) x = in_period(x, index->width);
-  if (PERIODIC_Y) y = in_period(y, index->height);
-  return AS_UINT_V(y + margin_y(index->height)) << 16 | AS_UINT_V(x + margin_x(index->width));
-#else
-  (void)index;
-  return image;
-#endif
 }
 
 // The id of a seed at a position in the frame.

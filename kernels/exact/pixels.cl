@@ -1,7 +1,7 @@
 // The program of exact diagrams of points in the group shape, for devices whose work-items have little memory each: a
 // work-item labels a pixel, by all places of the bins around it, in integers.
 
-#include "exact/points/gather.cl"
+#include "exact/gather.cl"
 
 typedef struct {
   ulong distance;
