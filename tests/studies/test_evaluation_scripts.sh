@@ -20,7 +20,7 @@ refuses() { # refuses TEXT SCRIPT ARGUMENT...: one line, which says TEXT
 
 # Lengths of regions, against a loop over the pixels.
 "$command" render --random 60 --size 57x40 --method exact --labels labels.npy -o labels.png >/dev/null
-"$scripts/plot_region_lengths.py" labels.npy -o lengths.png >lengths.csv
+"$scripts/figures.py" lengths labels.npy -o lengths.png >lengths.csv
 is_png lengths.png
 /usr/bin/python3 - <<'PYTHON'
 import csv
@@ -48,12 +48,12 @@ for row in rows:
                           ("greatest", max(lengths)), ("percent_under_2_l_avg", under)]:
         assert abs(float(row[column]) - value) < 1e-5, (row["length"], column, row[column], value)
 PYTHON
-refuses 'missing.npy' plot_region_lengths.py missing.npy -o a.png
-refuses 'labels.png' plot_region_lengths.py labels.png -o a.png
+refuses 'missing.npy' figures.py lengths missing.npy -o a.png
+refuses 'labels.png' figures.py lengths labels.png -o a.png
 
-"$scripts/montage.py" -o montage.png --columns 2 "one=labels.png" "" "two=lengths.png"
+"$scripts/figures.py" montage -o montage.png --columns 2 "one=labels.png" "" "two=lengths.png"
 is_png montage.png
-refuses 'missing.png' montage.py -o a.png "one=missing.png"
+refuses 'missing.png' figures.py montage -o a.png "one=missing.png"
 
 # The study: it goes on where a run has ended, and a table of other settings is refused.
 tiny=(--sizes 40,64 --seeds "2%,20%" --frames 3 --timed-frames 2 --repeats 1)

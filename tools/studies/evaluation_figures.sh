@@ -14,7 +14,7 @@ trap 'rm -rf "$work"' EXIT
 export POCL_AFFINITY=1 MPLCONFIGDIR=$work/matplotlib
 mkdir -p "$out"
 wants() { [[ $parts == *" $1 "* ]]; }
-montage() { tools/studies/montage.py -o "$out/$1.png" "${@:2}"; }
+montage() { tools/studies/figures.py montage -o "$out/$1.png" "${@:2}"; }
 
 if wants pictures; then
   "$vorocl" render --random 17 --size 500x500 --method exact --edges 2 --points-overlay -o "$work/17.png"
@@ -60,7 +60,7 @@ fi
 
 if wants lengths; then
   "$vorocl" render --random 10000 --size 2000x2000 --method exact --labels "$work/labels.npy"
-  tools/studies/plot_region_lengths.py "$work/labels.npy" -o "$out/lengths.png" --dpi 80 >"$work/lengths.csv"
+  tools/studies/figures.py lengths "$work/labels.npy" -o "$out/lengths.png" --dpi 80 >"$work/lengths.csv"
   mv "$work/lengths.csv" "$out/"
 fi
 
@@ -141,7 +141,6 @@ if wants ablation; then
   mv "$work/ablation.csv" "$out/"
 fi
 if wants tables; then
-  tools/studies/plot_evaluation.py "$out/evaluation.csv" -o "$work/figures" --dpi 70
-  mv "$work"/figures/{similarity,times,speedup}_{n,density}.png "$out/"
+  tools/studies/figures.py evaluation "$out/evaluation.csv" -o "$out" --dpi 70
   tools/studies/evaluation_tables.py docs/evaluation.md "$out"
 fi

@@ -1,5 +1,11 @@
 #!/usr/bin/python3
-"""Draws the figures of a table that study.py evaluate has written (needs python3-matplotlib)."""
+"""Draws the figures of docs/evaluation.md (needs python3-matplotlib).
+
+evaluation: of a table that study.py evaluate has written, each against n and against the density.
+lengths: the histogram of the regions' lengths in a diagram, as the square root of the area and as the larger side of the bounding
+box, with L_avg, 2 L_avg and the normal curve of the same mean and deviation. Prints the numbers as CSV.
+montage: pictures in rows, each under its caption, as "caption=picture.png". An empty argument leaves its place empty.
+"""
 
 import argparse
 import csv
@@ -12,6 +18,7 @@ import matplotlib
 
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt  # noqa: E402
+import numpy as np  # noqa: E402
 from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter  # noqa: E402
 
 TEXTS = ["version", "device", "method", "metric"]
@@ -19,15 +26,14 @@ NUMBERS = [
     "step_length", "frames", "timed_frames", "repeats", "n", "seeds", "pixels_per_seed", "waves",
     "milliseconds_median", "milliseconds_least", "milliseconds_greatest", "speedup_over_jfa", "speedup_over_djfae",
     "similarity_to_euclidean_jfa_mean", "similarity_to_jfa_mean", "similarity_to_exact_mean",
-    "wrong_percent_mean", "largest_excess", "mean_excess",
 ]
 MARKERS = "osD^vP*X<>hp"
 DENSITY = "pixels per seed (fewer: denser)"
 SIDE = "n (grid of n × n pixels)"
 
 
-class BadTable(Exception):
-    """What is wrong with the table, in one line."""
+class BadInput(Exception):
+    """What is wrong with a table or a picture, in one line."""
 
 
 def read_table(path):
@@ -37,17 +43,17 @@ def read_table(path):
             reader = csv.DictReader(file)
             missing = [name for name in TEXTS + NUMBERS if name not in (reader.fieldnames or [])]
             if missing:
-                raise BadTable(f"{path} is no table of study.py evaluate: it has no column {missing[0]}")
+                raise BadInput(f"{path} is no table of study.py evaluate: it has no column {missing[0]}")
             rows = [read_row(path, reader.line_num, row) for row in reader]
     except OSError as error:
-        raise BadTable(f"cannot read {path}: {error.strerror}") from error
+        raise BadInput(f"cannot read {path}: {error.strerror}") from error
     except (UnicodeDecodeError, csv.Error) as error:
-        raise BadTable(f"{path} is no table of study.py evaluate: {error}") from error
+        raise BadInput(f"{path} is no table of study.py evaluate: {error}") from error
     if not rows:
-        raise BadTable(f"{path} holds no configuration yet")
+        raise BadInput(f"{path} holds no configuration yet")
     for name in ["version", "device", "step_length", "frames", "timed_frames"]:
         if len({row[name] for row in rows}) > 1:
-            raise BadTable(f"{path} mixes evaluations: its rows differ in {name}")
+            raise BadInput(f"{path} mixes evaluations: its rows differ in {name}")
     return rows
 
 
@@ -57,7 +63,7 @@ def read_row(path, line, row):
         try:
             values[name] = float(row[name])
         except (TypeError, ValueError):
-            raise BadTable(f"{path}:{line}: {name} is {row[name]!r} and no number") from None
+            raise BadInput(f"{path}:{line}: {name} is {row[name]!r} and no number") from None
     return values
 
 
@@ -305,91 +311,115 @@ def draw_staircase(rows, axis, panel, value):
         panel.plot(along, y, color=colours(len(axis.groups))[i], linewidth=1.2, alpha=0.5, zorder=1)
 
 
-def errors_figure(rows, axis):
-    figure, panels = new_figure(
-        rows, f"Errors against the exact diagram, over {int(rows[0]['frames'])} frames: JFA (dashed) and dJFA (solid)",
-        (2, 4), (14.5, 7.5), [1, 1, 1, 0.45],
+def region_lengths(labels):
+    """For each region that has a pixel: the square root of its area, and the larger side of its bounding box."""
+    ids, region = np.unique(labels, return_inverse=True)
+    region = region.reshape(labels.shape)
+    area = np.bincount(region.ravel())
+    sides = []
+    for axis in (0, 1):
+        place = np.broadcast_to(np.arange(labels.shape[axis]).reshape((-1, 1) if axis == 0 else (1, -1)), labels.shape)
+        first, last = np.full(len(ids), labels.size), np.full(len(ids), -1)
+        np.minimum.at(first, region, place)
+        np.maximum.at(last, region, place)
+        sides.append(last - first + 1)
+    return {"square root of the area": np.sqrt(area), "larger side of the bounding box": np.maximum(*sides)}
+
+
+def draw_lengths(panel, name, lengths, l_avg, share):
+    mean, deviation = lengths.mean(), lengths.std()
+    width = max(1, round(l_avg / 20))
+    edges = np.arange(math.floor(lengths.min()), lengths.max() + 2 * width, width) - 0.5
+    panel.hist(lengths, bins=edges, color="#9ecae1", edgecolor="white", linewidth=0.3, label="regions")
+    x = np.linspace(edges[0], edges[-1], 400)
+    curve = np.exp(-(((x - mean) / deviation) ** 2) / 2) / (deviation * math.sqrt(2 * math.pi))
+    panel.plot(x, curve * len(lengths) * width, color="#d55e00", label="normal curve")
+    panel.axvline(l_avg, color="0.2", linestyle="-", linewidth=1, label=r"$L_{avg}$")
+    panel.axvline(2 * l_avg, color="0.2", linestyle="--", linewidth=1, label=r"$2\,L_{avg}$")
+    panel.set_title(f"{name}: {share:.2f} % are under $2\\,L_{{avg}}$", fontsize=10)
+    panel.set_xlabel("length (pixels)")
+    panel.set_ylabel("regions")
+    panel.legend(fontsize=8, frameon=False)
+
+
+def draw_evaluation(options):
+    rows = read_table(options.table)
+    os.makedirs(options.output, exist_ok=True)
+    for axis in Axis("n", rows), Axis("density", rows):
+        for name, draw in ("similarity", similarity_figure), ("times", times_figure), ("speedup", speedup_figure):
+            save(draw(rows, axis), os.path.join(options.output, f"{name}_{axis.name}.png"), options.dpi)
+
+
+def draw_regions(options):
+    try:
+        labels = np.load(options.labels)
+    except (OSError, ValueError) as error:
+        raise BadInput(f"{options.labels}: {error}") from error
+    if labels.ndim != 2:
+        raise BadInput(f"{options.labels} is no image of labels")
+    lengths = region_lengths(labels)
+    regions = len(next(iter(lengths.values())))
+    l_avg = math.sqrt(labels.size / regions)
+    figure, panels = plt.subplots(1, 2, figsize=(11, 3.8), layout="constrained")
+    figure.suptitle(f"{regions:,} regions on {labels.shape[1]:,} × {labels.shape[0]:,} pixels", fontsize=11)
+    print("length,regions,l_avg,mean,deviation,greatest,percent_under_2_l_avg")
+    for panel, (name, values) in zip(panels, lengths.items()):
+        under = 100 * np.mean(values < 2 * l_avg)
+        draw_lengths(panel, name, values, l_avg, under)
+        print(f"{name},{regions},{l_avg:.6f},{values.mean():.6f},{values.std():.6f},{values.max():.6f},{under:.6f}")
+    save(figure, options.output, options.dpi)
+
+
+def draw_montage(options):
+    rows, inches = math.ceil(len(options.pictures) / options.columns), options.inches
+    figure, panels = plt.subplots(
+        rows, options.columns, squeeze=False, layout="constrained",
+        figsize=(inches * options.columns, (inches + 0.25) * rows),
     )
-    drawn = [
-        ("wrong_percent_mean", "wrong pixels (% of all)"),
-        ("mean_excess", "mean excess distance (pixels)"),
-        ("largest_excess", "largest excess distance (pixels)"),
-    ]
-    for line, metric in zip(panels, ["euclidean", "manhattan"]):
-        for panel, (column, label) in zip(line, drawn):
-            axis.draw(panel, "jfa", metric, lambda row, column=column: row[column], style="--", labelled=False)
-            axis.draw(panel, "djfa", metric, lambda row, column=column: row[column])
-            axis.dress(panel)
-            panel.set_title(metric.capitalize(), fontsize=10)
-            panel.set_ylabel(label)
-            shown = [row[column] for method in ("jfa", "djfa") for row in of(rows, method, metric)]
-            show_from_zero(panel, shown, on_log_scale=column != "largest_excess")
-    legend_instead(panels[0][3], panels[0][0].get_legend_handles_labels())
-    panels[1][3].axis("off")
-    return figure
+    for panel in panels.flat:
+        panel.axis("off")
+    for panel, argument in zip(panels.flat, options.pictures):
+        if argument:
+            caption, _, path = argument.rpartition("=")
+            panel.imshow(plt.imread(path), interpolation="antialiased")
+            panel.set_title(caption, fontsize=9)
+    save(figure, options.output, options.dpi)
 
 
-def show_from_zero(panel, values, on_log_scale):
-    """A y axis for values some or all of which may be 0: logarithmic above a short linear piece."""
-    above_zero = [value for value in values if value > 0]
-    if not above_zero:
-        panel.set_ylim(-0.05, 1)
-    elif on_log_scale:
-        least = 10 ** math.floor(math.log10(min(above_zero)))
-        panel.set_yscale("symlog", linthresh=least, linscale=0.5)
-        panel.set_ylim(-0.3 * least if 0 in values else least, 2 * max(above_zero))
-    else:
-        panel.set_ylim(-0.05 * max(above_zero), 1.1 * max(above_zero))
-
-
-def save(figure, folder, name, dpi):
-    """Each file is whole as soon as it has its name."""
-    paths = []
-    for kind in ("png", "pdf"):
-        path = os.path.join(folder, f"{name}.{kind}")
-        temporary = os.path.join(folder, f".{os.getpid()}-{name}.{kind}")
-        try:
-            figure.savefig(temporary, format=kind, dpi=dpi, metadata={"CreationDate": None} if kind == "pdf" else None)
-            os.replace(temporary, path)
-        finally:
-            if os.path.exists(temporary):
-                os.remove(temporary)
-        paths.append(path)
+def save(figure, path, dpi):
+    """The file is whole as soon as it has its name."""
+    temporary = os.path.join(os.path.dirname(path), f".{os.getpid()}-figure.png")
+    try:
+        figure.savefig(temporary, dpi=dpi)
+        os.replace(temporary, path)
+    finally:
+        if os.path.exists(temporary):
+            os.remove(temporary)
     plt.close(figure)
-    return paths
-
-
-def figures(rows):
-    n, density = Axis("n", rows), Axis("density", rows)
-    yield "similarity_n", similarity_figure(rows, n)
-    yield "similarity_density", similarity_figure(rows, density)
-    yield "times_n", times_figure(rows, n)
-    yield "times_density", times_figure(rows, density)
-    yield "speedup_n", speedup_figure(rows, n)
-    yield "speedup_density", speedup_figure(rows, density)
-    yield "errors_n", errors_figure(rows, n)
-    yield "errors_density", errors_figure(rows, density)
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("table", help="what study.py evaluate -o has written (.csv)")
-    parser.add_argument(
-        "-o", "--output", metavar="FOLDER", help="where the .png and .pdf files go (default: beside the table)"
-    )
-    parser.add_argument("--dpi", type=int, default=150, help="dots an inch of the .png files (default: 150)")
-    arguments = parser.parse_args()
-    folder = arguments.output or os.path.dirname(arguments.table) or "."
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    commands = parser.add_subparsers(required=True, metavar="evaluation|lengths|montage")
+
+    def command(name, draw, dpi, output, what, **how):
+        added = commands.add_parser(name)
+        added.add_argument(what, **how)
+        added.add_argument("-o", "--output", required=True, metavar=output)
+        added.add_argument("--dpi", type=int, default=dpi, help="dots an inch (default: %(default)s)")
+        added.set_defaults(draw=draw)
+        return added
+
+    command("evaluation", draw_evaluation, 150, "FOLDER", "table", help="what study.py evaluate -o has written (.csv)")
+    command("lengths", draw_regions, 100, "PICTURE", "labels", help="what vorocl render --labels has written (.npy)")
+    montage = command("montage", draw_montage, 100, "PICTURE", "pictures", nargs="+", metavar="CAPTION=PICTURE")
+    montage.add_argument("--columns", type=int, default=3)
+    montage.add_argument("--inches", type=float, default=2, help="width of each picture")
+    options = parser.parse_args()
     try:
-        rows = read_table(arguments.table)
-        os.makedirs(folder, exist_ok=True)
-        for name, figure in figures(rows):
-            for path in save(figure, folder, name, arguments.dpi):
-                print(f"wrote {path}")
-    except BadTable as error:
-        sys.exit(f"plot_evaluation.py: error: {error}")
-    except OSError as error:
-        sys.exit(f"plot_evaluation.py: error: cannot write {error.filename or folder}: {error.strerror}")
+        options.draw(options)
+    except (BadInput, OSError) as error:
+        sys.exit(f"figures.py: error: {error}")
 
 
 if __name__ == "__main__":
