@@ -1,6 +1,9 @@
 // Devices, and the grids and reports that say sizes and times.
 #include <nanobind/stl/optional.h>
+#include <nanobind/stl/tuple.h>
 #include <nanobind/stl/vector.h>
+
+#include <tuple>
 
 #include "checks/known_answers.hpp"
 #include "module.hpp"
@@ -11,6 +14,18 @@ namespace {
 
 Device adopt(std::uintptr_t context, std::uintptr_t queue) {
   return {retained<cl::Context>(context), retained<cl::CommandQueue>(queue)};
+}
+
+/// The fields of vorocl.DeviceDescription.
+auto list(const std::string& request) {
+  const auto fields_of = [](const DeviceDescription& found) {
+    return std::tuple(found.platform_index, found.device_index, found.platform, found.name, found.type,
+                      found.opencl_version, found.driver_version, found.compute_units, found.global_memory,
+                      found.max_allocation, found.why_not, found.selected, found.asked_for, found.reason);
+  };
+  std::vector<decltype(fields_of(DeviceDescription()))> all;
+  for (const DeviceDescription& found : Device::list(request)) all.push_back(fields_of(found));
+  return all;
 }
 
 /// A grid of at most as many pixels as a diagram has: here a diagram shows all of it. `bounds` are (x0, y0,
@@ -53,25 +68,7 @@ void bind_devices(nb::module_& module) {
       .def_prop_ro("platform", &Device::platform_name)
       .def_prop_ro("driver_version", &Device::driver_version);
 
-  nb::class_<DeviceDescription>(module, "DeviceDescription")
-      .def_ro("platform_index", &DeviceDescription::platform_index)
-      .def_ro("device_index", &DeviceDescription::device_index)
-      .def_ro("platform", &DeviceDescription::platform)
-      .def_ro("name", &DeviceDescription::name)
-      .def_ro("type", &DeviceDescription::type)
-      .def_ro("opencl_version", &DeviceDescription::opencl_version)
-      .def_ro("driver_version", &DeviceDescription::driver_version)
-      .def_ro("compute_units", &DeviceDescription::compute_units)
-      .def_ro("global_memory", &DeviceDescription::global_memory)
-      .def_ro("max_allocation", &DeviceDescription::max_allocation)
-      .def_ro("why_not", &DeviceDescription::why_not)
-      .def_ro("selected", &DeviceDescription::selected)
-      .def_ro("asked_for", &DeviceDescription::asked_for)
-      .def_ro("reason", &DeviceDescription::reason)
-      .def("__repr__", [](const nb::handle& self) {
-        return shown(self, {"platform", "name", "type", "compute_units", "selected", "why_not"});
-      });
-  module.def("list_devices", &Device::list, nb::arg("request"), without_gil());
+  module.def("list_devices", list, nb::arg("request"), without_gil());
 
   module.def("most_preparation_parts", &most_preparation_parts);
   module.def(
@@ -94,8 +91,9 @@ void bind_devices(nb::module_& module) {
       .def_prop_ro("milliseconds", &Report::milliseconds, without_gil())
       .def_prop_ro("host_milliseconds", &Report::host_milliseconds)
       .def_prop_ro("snapped", &Report::snapped)
-      .def("__repr__", [](const nb::handle& self) {
-        return shown(self, {"milliseconds", "waves", "host_milliseconds"});  // waits
+      .def("__repr__", [](const Report& self) {
+        return nb::str("Report(milliseconds={!r}, waves={!r}, host_milliseconds={!r})")
+            .format(self.milliseconds(), self.waves(), self.host_milliseconds());  // waits
       });
 }
 

@@ -1,11 +1,13 @@
 // Diagrams: methods that fill them, and what is measured of them.
 #include <nanobind/stl/optional.h>
+#include <nanobind/stl/tuple.h>
 #include <nanobind/stl/unique_ptr.h>
 #include <nanobind/stl/vector.h>
 
 #include <cmath>
 #include <limits>
 #include <string>
+#include <tuple>
 
 #include "module.hpp"
 
@@ -229,8 +231,9 @@ std::size_t count_vertices(DiagramObject& diagram) {
   return result.count();
 }
 
-/// By the points that were given, or the centres of their pixels; else by what the labels were made of.
-DistanceErrors errors(DiagramObject& diagram, std::optional<bool> of_points) {
+/// The fields of vorocl.DistanceErrors: by the points that were given, or the centres of their pixels; else
+/// by what the labels were made of.
+auto errors(DiagramObject& diagram, std::optional<bool> of_points) {
   const Turn turn(diagram.mutex);
   const Snap snap = !of_points ? diagram.snap : *of_points ? Snap::none : Snap::to_pixels;
   const Seeds& named = seeds_of(diagram);
@@ -242,12 +245,14 @@ DistanceErrors errors(DiagramObject& diagram, std::optional<bool> of_points) {
   judged.write(diagram.diagram.labels(), seeds, metric);
   DistanceErrorsResult result;
   distance_errors(judged, exact, result);
-  return result.read();
+  const DistanceErrors found = result.read();
+  return std::tuple(found.pixels, found.wrong_pixels, found.unlabelled_pixels, found.largest_excess,
+                    found.mean_excess);
 }
 
-/// Ctrl-C ends it after a round.
-Relaxation relax(DiagramObject& diagram, SeedsObject& seeds, const std::string& name,
-                 const std::string& metric, int rounds, const std::optional<Array<const float>>& density) {
+/// The energies, what each round moved and whether it converged. Ctrl-C ends it after a round.
+auto relax(DiagramObject& diagram, SeedsObject& seeds, const std::string& name, const std::string& metric,
+           int rounds, const std::optional<Array<const float>>& density) {
   const Turns turns(diagram.mutex, seeds.mutex);
   const auto go_on = [](const Seeds&, const Diagram&, const Relaxation&) {
     const nb::gil_scoped_acquire locked;
@@ -261,7 +266,7 @@ Relaxation relax(DiagramObject& diagram, SeedsObject& seeds, const std::string& 
   if (density) options.density.assign(density->data(), density->data() + density->size());
   Relaxation done = vorocl::relax(seeds.seeds, diagram.diagram, fills, rounds, go_on, options);
   remember(diagram, seeds.seeds, method(name).exact ? seeds.snap : Snap::to_pixels);
-  return done;
+  return std::tuple(done.energies, done.moved, done.converged);
 }
 
 }  // namespace
@@ -272,22 +277,6 @@ void bind_diagrams(nb::module_& module) {
       .def_ro("exact", &Method::exact)
       .def_ro("continues", &Method::continues);
   module.def("methods", &methods);
-
-  nb::class_<DistanceErrors>(module, "DistanceErrors")
-      .def_ro("pixels", &DistanceErrors::pixels)
-      .def_ro("wrong_pixels", &DistanceErrors::wrong_pixels)
-      .def_ro("unlabelled_pixels", &DistanceErrors::unlabelled_pixels)
-      .def_ro("largest_excess", &DistanceErrors::largest_excess)
-      .def_ro("mean_excess", &DistanceErrors::mean_excess)
-      .def_prop_ro("wrong_percent", &DistanceErrors::wrong_percent)
-      .def("__repr__", [](const nb::handle& self) {
-        return shown(self, {"pixels", "wrong_pixels", "unlabelled_pixels", "largest_excess", "mean_excess"});
-      });
-
-  nb::class_<Relaxation>(module, "Relaxation")
-      .def_ro("energies", &Relaxation::energies)
-      .def_ro("moved", &Relaxation::moved)
-      .def_ro("converged", &Relaxation::converged);
 
   nb::class_<DiagramObject>(module, "Diagram")
       .def(nb::new_(&make), nb::arg("device"), nb::arg("grid"))

@@ -6,7 +6,6 @@
 #include <nanobind/stl/string.h>
 
 #include <cstdint>
-#include <initializer_list>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -38,17 +37,6 @@ nb::ndarray<nb::numpy, T, nb::ndim<2>> to_numpy(std::vector<Row>&& rows) {
   const nb::capsule owner(owned,
                           [](void* vector) noexcept { delete static_cast<std::vector<Row>*>(vector); });
   return {owned->data(), {owned->size(), sizeof(Row) / sizeof(T)}, owner};
-}
-
-/// How an object prints: NAME(attribute=value, ...).
-inline std::string shown(const nb::handle& object, std::initializer_list<const char*> attributes) {
-  std::string text = nb::cast<std::string>(nb::type_name(object.type())) + "(";
-  const char* before = "";
-  for (const char* attribute : attributes) {
-    text += before + std::string(attribute) + "=" + nb::repr(object.attr(attribute)).c_str();
-    before = ", ";
-  }
-  return text + ")";
 }
 
 /// A handle of OpenCL as pyopencl passes it, retained.

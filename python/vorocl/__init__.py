@@ -13,7 +13,7 @@ load_opencl()  # before the first import of the extension module
 
 from importlib.metadata import version as _version
 
-from ._device import Device, devices
+from ._device import Device, DeviceDescription, devices
 from ._errors import (
     BadArgument,
     BadPoint,
@@ -43,9 +43,9 @@ from ._functions import (
     vertices,
 )
 from ._grid import Grid
-from ._objects import CELL, Diagram, Seeds, Simulation
+from ._objects import CELL, Diagram, DistanceErrors, Seeds, Simulation
 from ._preparation import prepare
-from ._vorocl import DeviceDescription, DistanceErrors, Report
+from ._vorocl import Report
 
 __version__ = _version("vorocl")
 

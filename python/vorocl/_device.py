@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import functools
 import sys
-from typing import TYPE_CHECKING, Any, List, NoReturn, Optional
+from typing import TYPE_CHECKING, Any, List, NamedTuple, NoReturn, Optional
 
 from . import _vorocl
 from ._arguments import to_text
@@ -100,7 +100,26 @@ class Device(OnDevice):
         return f"<vorocl.Device {self.platform}: {self.name}>"
 
 
-def devices(request: str = "") -> List[_vorocl.DeviceDescription]:
+class DeviceDescription(NamedTuple):
+    """What `devices` says of an OpenCL device of this machine."""
+
+    platform_index: int
+    device_index: int
+    platform: str
+    name: str
+    type: str
+    opencl_version: str
+    driver_version: str
+    compute_units: int
+    global_memory: int
+    max_allocation: int
+    why_not: str
+    selected: bool
+    asked_for: bool
+    reason: str
+
+
+def devices(request: str = "") -> List[DeviceDescription]:
     """List all OpenCL devices of this machine.
 
     Parameters
@@ -122,7 +141,7 @@ def devices(request: str = "") -> List[_vorocl.DeviceDescription]:
     >>> [device.selected for device in vorocl.devices()].count(True)
     1
     """
-    return _vorocl.list_devices(to_text(request, "request"))
+    return [DeviceDescription(*found) for found in _vorocl.list_devices(to_text(request, "request"))]
 
 
 @functools.lru_cache(maxsize=None)

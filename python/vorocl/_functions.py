@@ -41,7 +41,7 @@ from ._arguments import (
 from ._device import Device, to_device
 from ._errors import BadArgument
 from ._grid import Frame, Grid, Periodic, Shape, Unpack, to_grid, to_periodic
-from ._objects import Diagram, Seeds
+from ._objects import Diagram, DistanceErrors, Seeds
 from ._parameters import with_parameters
 
 if TYPE_CHECKING:
@@ -640,14 +640,12 @@ def relax(
     seeds = Seeds(points, shown_by, outside=outside, snap=to_snap(snap, method), device=device)
     made = Diagram(shown_by, device=device)
     weights = None if density is None else to_density(density, made.shape)
-    done = made._diagram.relax(
+    energies, moved, converged = made._diagram.relax(
         seeds._seeds, to_text(method, "method"), "euclidean", to_count(rounds, "rounds"), weights
     )
     places = np.empty((len(seeds), len(made.shape)))
     seeds._seeds.read(places, in_pixels=False)
-    return Relaxation(
-        places, np.array(done.energies), np.array(done.moved, np.int64), done.converged
-    )
+    return Relaxation(places, np.array(energies), np.array(moved, np.int64), converged)
 
 
 def similarity(a: ArrayLike, b: ArrayLike) -> float:
@@ -690,7 +688,7 @@ def errors(
     truth: Truth = "snapped",
     device: Optional[Device] = None,
     **frame: Unpack[Frame],
-) -> _vorocl.DistanceErrors:
+) -> DistanceErrors:
     """Judge labels by an exact diagram of the points: how many are wrong, and by how many pixels.
 
     A pixel that is as near to the point of its label as to that of the exact one is right: a tie may be given to any

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import sys
-from typing import Any, List, Optional, Tuple, Union, cast
+from typing import Any, List, NamedTuple, Optional, Tuple, Union, cast
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -41,6 +41,21 @@ CELL = row_of(
     }
 )
 """One row of `cells` in pixels. Those of a plane leave out ``z``, ``centroid_z``, ``front`` and ``back``."""
+
+
+class DistanceErrors(NamedTuple):
+    """What `errors` finds."""
+
+    pixels: int
+    wrong_pixels: int
+    unlabelled_pixels: int
+    largest_excess: float
+    mean_excess: float
+
+    @property
+    def wrong_percent(self) -> float:
+        """Of the pixels."""
+        return 100 * self.wrong_pixels / self.pixels
 
 
 def to_seeds(seeds: Seeds) -> _vorocl.Seeds:
@@ -597,7 +612,7 @@ class Diagram(OnDevice):
         """Count the pixel corners where three or more cells meet, on the device."""
         return self._diagram.count_vertices()
 
-    def errors(self, truth: Optional[Truth] = None) -> _vorocl.DistanceErrors:
+    def errors(self, truth: Optional[Truth] = None) -> DistanceErrors:
         """Judge the labels by an exact diagram: see `vorocl.errors`.
 
         Parameters
@@ -605,7 +620,7 @@ class Diagram(OnDevice):
         truth : {"snapped", "true"}, optional
             Without it, what an exact diagram was made of; "snapped" for all other labels.
         """
-        return self._diagram.errors(None if truth is None else to_truth(truth))
+        return DistanceErrors(*self._diagram.errors(None if truth is None else to_truth(truth)))
 
 
 def _points_there(points: Any, dimensions: int) -> Optional[_vorocl.PointBuffer]:
