@@ -7,6 +7,7 @@
 #include "app/sources/bounds.hpp"
 #include "app/sources/mapping.hpp"
 #include "fixture.hpp"
+#include "run_command.hpp"
 
 using namespace vorocl;
 using namespace vorocl::command;
@@ -113,6 +114,25 @@ BOOST_AUTO_TEST_CASE(points_outside_are_named) {
 BOOST_AUTO_TEST_CASE(the_bounding_box_holds_all_points) {
   const Bounds box = bounding_box({{3, 4}, {-1, 7}, {2, -5}});
   BOOST_TEST(to_string(box) == "-1,-5,3,7");
+}
+
+BOOST_AUTO_TEST_CASE(a_margin_is_bounds_that_are_wider) {
+  const TemporaryFolder folder;
+  folder.file("p.csv", "x,y\n10,4\n30,8\n20,9\n");
+  const std::string points = " --points p.csv ", cells = "--cells m.csv ";
+  const auto table = [&](const std::string& command) {
+    BOOST_TEST(run(folder, command).exit_code == 0);
+    return content_of(folder / "m.csv");
+  };
+  for (const std::string& command : {"cells --width 40" + points + cells, "cells --exact" + points + cells,
+                                     "tiles --size 48x18" + points + cells}) {
+    const std::string expected = table(command + "--bounds=8,2,32,11");
+    BOOST_TEST(table(command + "--margin 10") == expected);
+    BOOST_TEST(table(command) != expected);
+    refuses(folder, command + "--margin 1 --bounds 0,0,40,40", usage, {"--margin", "--bounds"});
+  }
+  refuses(folder, "cells --size 9x9x9" + points + cells + "--margin 1", usage, {"--margin", "volumes"});
+  refuses(folder, "cells --random 9 --size 9x9 --margin 1 " + cells, usage, {"--margin", "--points"});
 }
 
 BOOST_AUTO_TEST_CASE(bounds_are_four_numbers) {

@@ -76,8 +76,17 @@ Option add_decimal_option(Command& command, SeedOptions& options) {
       .default_text(".");
 }
 
-void add_bounds_option(Command& command, SeedOptions& options, const std::string& about) {
-  command.add_parsed("--bounds", options.bounds, parse_bounds, about).value_name("X0,Y0,X1,Y1");
+void add_margin_option(Command& command, SeedOptions& options) {
+  command
+      .add("--margin", options.margin,
+           "Without --bounds: how much farther than the points' bounding box the picture goes all round, in "
+           "percent "
+           "of its longer side")
+      .value_name("P")
+      .default_is_value()
+      .in_range(0.0, 1000.0)
+      .needs("--points")
+      .excludes(command.option("--bounds"));
 }
 
 /// "X0,Y0,X1,Y1", or "X0,Y0,Z0,X1,Y1,Z1" of a volume, whose z is set apart.
@@ -265,8 +274,9 @@ void add_seed_options(Command& command, SeedOptions& options, std::size_t least,
     };
     command.add("--bounds", set, about_bounds + "; of a volume X0,Y0,Z0,X1,Y1,Z1").value_name("X0,Y0,X1,Y1");
   } else {
-    add_bounds_option(command, options, about_bounds);
+    command.add_parsed("--bounds", options.bounds, parse_bounds, about_bounds).value_name("X0,Y0,X1,Y1");
   }
+  add_margin_option(command, options);
   add_outside_option(command, options);
   command
       .add_parsed(
@@ -274,7 +284,8 @@ void add_seed_options(Command& command, SeedOptions& options, std::size_t least,
           "Rectangle in data units that repeats along the periodic axes of points; the bounds may be a part "
           "of it")
       .value_name("X0,Y0,X1,Y1")
-      .default_text("the bounds");
+      .default_text("the bounds")
+      .excludes(command.option("--margin"));
   add_periodic_option(command, options, volumes,
                       "Axes along which the plane repeats: distances go the shorter way round, cells reach "
                       "across the border, and points outside the domain wrap")
@@ -298,8 +309,11 @@ void add_plane_options(Command& command, PlaneInputOptions& options) {
       .add_parsed("--size", options.size, parse_plane,
                   "Width and height of the plane in pixels; with --mask those of the image")
       .value_name("WxH");
-  add_bounds_option(command, seeds,
-                    "Rectangle in data units that the plane shows; else the bounding box of the points");
+  command
+      .add_parsed("--bounds", seeds.bounds, parse_bounds,
+                  "Rectangle in data units that the plane shows; else the bounding box of the points")
+      .value_name("X0,Y0,X1,Y1");
+  add_margin_option(command, seeds);
   add_outside_option(command, seeds);
   add_periodic_option(command, seeds, false,
                       "Axes along which the plane repeats: distances go the shorter way round, cells reach "

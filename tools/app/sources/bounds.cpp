@@ -71,6 +71,11 @@ Bounds joined(const Bounds& a, const Bounds& b) {
   return {std::min(a.x0, b.x0), std::min(a.y0, b.y0), std::max(a.x1, b.x1), std::max(a.y1, b.y1)};
 }
 
+Bounds widened(const Bounds& bounds, double percent) {
+  const double margin = std::max(bounds.x1 - bounds.x0, bounds.y1 - bounds.y0) * percent / 100;
+  return {bounds.x0 - margin, bounds.y0 - margin, bounds.x1 + margin, bounds.y1 + margin};
+}
+
 Size size_of_width(const Bounds& bounds, int width) {
   check_bounds(bounds);
   if (bounds.x0 == bounds.x1) {

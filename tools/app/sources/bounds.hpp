@@ -31,6 +31,9 @@ Bounds bounding_box(const std::vector<Point>& points);
 /// The least bounds that hold both.
 Bounds joined(const Bounds& a, const Bounds& b);
 
+/// The bounds, farther all round by so many percent of their longer side.
+Bounds widened(const Bounds& bounds, double percent);
+
 /// The size of this width whose pixels are square in data units, to the nearest whole height. Throws Error if
 /// the bounds have no width or the size is not possible.
 Size size_of_width(const Bounds& bounds, int width);

@@ -93,7 +93,7 @@ ExactInput exact_input_from_points(const SeedOptions& options) {
   try {
     const Bounds repeats = options.domain   ? *options.domain
                            : options.bounds ? *options.bounds
-                                            : bounding_box(points);
+                                            : widened(bounding_box(points), options.margin);
     const Grid grid = grid_of(options, repeats, options.periodic.value_or(Axes::none), "the domain");
     note_points(options, grid, points);
     ExactInput input = input_of(options, options.points, grid, std::move(points), std::move(read.ids));

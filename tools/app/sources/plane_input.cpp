@@ -84,7 +84,7 @@ Grid grid_of(const Bounds& bounds, const Grid& plane, bool y_up, bool closed) {
 /// Reads the file a second time, and adds its points as they lie in the plane.
 PlaneFacts map_points(const SeedOptions& options, const Grid& plane, const Survey& survey,
                       const PlaneReading& reading) {
-  const Bounds bounds = options.bounds.value_or(survey.box);
+  const Bounds bounds = options.bounds.value_or(widened(survey.box, options.margin));
   const Outside outside = options.outside.value_or(Outside::count);
   const Grid data = grid_of(bounds, plane, points_up(options), !options.bounds || outside == Outside::refuse);
   reading.reserve(survey.points);

@@ -26,7 +26,7 @@ Mapping mapping_of(const SeedOptions& options, const std::vector<Point>& points)
     mapping.bounds = options.bounds ? *options.bounds : *options.domain;
     mapping.closed = options.outside.value_or(Outside::count) == Outside::refuse;
   } else {
-    mapping.bounds = bounding_box(points);
+    mapping.bounds = widened(bounding_box(points), options.margin);
   }
   mapping.y_up = points_up(options);
   mapping.crs = options.crs;

@@ -31,6 +31,7 @@ struct SeedOptions {
   std::int64_t depth = 1;  // more: a volume, which some commands make: see volume_input.hpp
   int width = 0;
   std::optional<Bounds> bounds;
+  double margin = 0;               // without them, in percent of the longer side of the points' box
   std::optional<Crs> crs;          // of points
   std::optional<Bounds> domain;    // of points: what repeats along the periodic axes; else the bounds
   std::optional<Outside> outside;  // the bounds; else they count

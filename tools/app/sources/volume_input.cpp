@@ -343,6 +343,7 @@ void check_volume_options(const SeedOptions& options) {
                                 : options.outside               ? "--outside"
                                 : options.y_up                  ? "--y-up"
                                 : options.y_down                ? "--y-down"
+                                : options.margin > 0            ? "--margin"
                                 : !options.value_column.empty() ? "--color column:NAME"
                                                                 : nullptr;
   if (of_planes != nullptr) refuse_in_volumes(of_planes);
