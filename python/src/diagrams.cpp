@@ -32,13 +32,11 @@ MethodOptions options_with(const std::string& metric) {
 
 // --- making and filling ---
 
-std::unique_ptr<DiagramObject> make(const Device& device, const Grid& grid) {
-  return std::make_unique<DiagramObject>(Diagram(device, grid));
-}
-
-/// Over the buffer of a caller who uses OpenCL too.
-std::unique_ptr<DiagramObject> over_buffer(const Device& device, const Grid& grid, std::uintptr_t labels) {
-  return std::make_unique<DiagramObject>(Diagram(device, grid, retained<cl::Buffer>(labels)));
+/// Over the buffer of a caller who uses OpenCL too, if there is one.
+std::unique_ptr<DiagramObject> make(const Device& device, const Grid& grid,
+                                    std::optional<std::uintptr_t> labels) {
+  return std::make_unique<DiagramObject>(labels ? Diagram(device, grid, retained<cl::Buffer>(*labels))
+                                                : Diagram(device, grid));
 }
 
 std::uintptr_t buffer(DiagramObject& diagram) {
@@ -62,14 +60,29 @@ void remember(DiagramObject& diagram, const Seeds& seeds, Snap snap = Snap::to_p
   diagram.snap = snap;
 }
 
+/// While this lives the labels are made in an array, if the device can: it is the caller's, who may free it
+/// after the call.
+struct InArray {
+  InArray(Diagram& of, std::uint32_t* place) : diagram(of) { diagram.put_labels_at(place); }
+  ~InArray() { diagram.put_labels_at(nullptr); }
+  Diagram& diagram;
+};
+
+/// With an array, the labels are in it alone: the diagram counts as never filled.
 Report fill(DiagramObject& diagram, SeedsObject& seeds, const std::string& name, const std::string& metric,
-            std::optional<double> max_displacement) {
+            std::optional<double> max_displacement, const std::optional<Array<std::uint32_t>>& labels) {
   const Turns turns(diagram.mutex, seeds.mutex);
   const Method& filling = method(name);
   MethodOptions options = options_with(metric);
   options.max_displacement = max_displacement;
   diagram.seeds.reset();
   show(diagram.diagram, seeds.seeds.grid());
+  if (labels) {
+    const InArray in_array(diagram.diagram, labels->data());
+    Report report = filling.run(seeds.seeds, diagram.diagram, options);
+    diagram.diagram.read(labels->data());
+    return report;
+  }
   Report report = filling.run(seeds.seeds, diagram.diagram, options);
   remember(diagram, seeds.seeds, report.snapped() ? Snap::to_pixels : seeds.snap);
   return report;
@@ -79,23 +92,6 @@ Report fill(DiagramObject& diagram, SeedsObject& seeds, const std::string& name,
 
 void read(DiagramObject& diagram, const Array<std::uint32_t>& labels) {
   const Turn turn(diagram.mutex);
-  diagram.diagram.read(labels.data());
-}
-
-/// As fill() and read(), where the labels are made in the array, if the device can.
-void fill_into(DiagramObject& diagram, SeedsObject& seeds, const std::string& name, const std::string& metric,
-               const Array<std::uint32_t>& labels) {
-  const Turns turns(diagram.mutex, seeds.mutex);
-  diagram.seeds.reset();
-  show(diagram.diagram, seeds.seeds.grid());
-  /// The array is the caller's, who may free it after the call.
-  struct InArray {
-    InArray(Diagram& of, std::uint32_t* place) : diagram(of) { diagram.put_labels_at(place); }
-    ~InArray() { diagram.put_labels_at(nullptr); }
-    Diagram& diagram;
-  };
-  const InArray in_array(diagram.diagram, labels.data());
-  method(name).run(seeds.seeds, diagram.diagram, options_with(metric));
   diagram.diagram.read(labels.data());
 }
 
@@ -272,21 +268,17 @@ auto relax(DiagramObject& diagram, SeedsObject& seeds, const std::string& name, 
 }  // namespace
 
 void bind_diagrams(nb::module_& module) {
-  nb::class_<Method>(module, "Method")
-      .def_ro("name", &Method::name)
-      .def_ro("exact", &Method::exact)
-      .def_ro("continues", &Method::continues);
-  module.def("methods", &methods);
+  module.def("methods", [] {  // their names; whether they are exact, and go on from the last frame
+    std::vector<std::tuple<std::string, bool, bool>> all;
+    for (const Method& each : methods()) all.emplace_back(each.name, each.exact, each.continues);
+    return all;
+  });
 
   nb::class_<DiagramObject>(module, "Diagram")
-      .def(nb::new_(&make), nb::arg("device"), nb::arg("grid"))
-      .def_static("over_buffer", over_buffer, nb::arg("device"), nb::arg("grid"), nb::arg("labels"),
-                  without_gil())
+      .def(nb::new_(&make), nb::arg("device"), nb::arg("grid"), nb::arg("labels").none(), without_gil())
       .def_prop_ro("buffer", buffer, without_gil())
       .def("fill", fill, nb::arg("seeds"), nb::arg("method"), nb::arg("metric"),
-           nb::arg("max_displacement").none(), without_gil())
-      .def("fill_into", fill_into, nb::arg("seeds"), nb::arg("method"), nb::arg("metric"), nb::arg("labels"),
-           without_gil())
+           nb::arg("max_displacement").none(), nb::arg("labels").none(), without_gil())
       .def("read", read, nb::arg("labels"), without_gil())
       .def("write", write, nb::arg("labels"), nb::arg("seeds").none(), nb::arg("metric"), without_gil())
       .def("distances", distances, nb::arg("values"), without_gil())

@@ -1,10 +1,12 @@
 // Seeds: points of NumPy's on the pixels of a grid.
 #include <nanobind/stl/optional.h>
+#include <nanobind/stl/tuple.h>
 #include <nanobind/stl/unique_ptr.h>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <tuple>
 
 #include "module.hpp"
 
@@ -60,22 +62,26 @@ void move_to(SeedsObject& seeds, const Rows& rows, const std::optional<Grid>& gr
   }
 }
 
-/// Rows of so many columns in a buffer on the device.
-PointBuffer rows_there(std::uintptr_t buffer, std::size_t count, int columns, bool are_doubles) {
+/// A buffer on the device, its rows and columns, and whether it is of doubles.
+using There = std::tuple<std::uintptr_t, std::size_t, int, bool>;
+
+PointBuffer points_there(const There& there) {
+  const auto& [buffer, count, columns, are_doubles] = there;
   const PointFormat flat = are_doubles ? PointFormat::doubles_xy : PointFormat::floats_xy;
   const PointFormat deep = are_doubles ? PointFormat::doubles_xyz : PointFormat::floats_xyz;
   return {retained<cl::Buffer>(buffer), count, columns == 3 ? deep : flat};
 }
 
-std::unique_ptr<SeedsObject> from_buffer(const Device& device, const Grid& grid, const PointBuffer& points,
+std::unique_ptr<SeedsObject> from_buffer(const Device& device, const Grid& grid, const There& points,
                                          const std::string& outside, bool snap) {
   const Snap snapped = snap ? Snap::to_pixels : Snap::none;
-  return std::make_unique<SeedsObject>(Seeds(device, grid, points, {outside_of(outside), snapped}), snapped);
+  const SeedsOptions options = {outside_of(outside), snapped};
+  return std::make_unique<SeedsObject>(Seeds(device, grid, points_there(points), options), snapped);
 }
 
-void move_to_buffer(SeedsObject& seeds, const PointBuffer& points) {
+void move_to_buffer(SeedsObject& seeds, const There& points) {
   const Turn turn(seeds.mutex);
-  seeds.seeds.move_to(points);
+  seeds.seeds.move_to(points_there(points));
 }
 
 /// What the seeds say of themselves.
@@ -103,9 +109,6 @@ void read(SeedsObject& seeds, const Array<double, nb::ndim<2>>& points, bool in_
 }  // namespace
 
 void bind_seeds(nb::module_& module) {
-  nb::class_<PointBuffer>(module, "PointBuffer")
-      .def_static("of", rows_there, nb::arg("buffer"), nb::arg("count"), nb::arg("columns"),
-                  nb::arg("are_doubles"));
   nb::class_<SeedsObject>(module, "Seeds")
       .def_static("from_buffer", from_buffer, nb::arg("device"), nb::arg("grid"), nb::arg("points"),
                   nb::arg("outside"), nb::arg("snap"), without_gil())

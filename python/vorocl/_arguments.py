@@ -82,7 +82,7 @@ def to_outside(outside: Outside) -> Outside:
     return to_one_of(Outside, outside, "outside")
 
 
-_FLOODING = {method.name for method in _vorocl.methods() if not method.exact}
+_FLOODING = {name for name, exact, _ in _vorocl.methods() if not exact}
 
 
 def to_snap(snap: Optional[bool], method: str = "exact") -> bool:

@@ -57,7 +57,7 @@ NO_LABEL = 0xFFFFFFFF
 _PIXELS_AT_ONCE = 1 << 22
 """Of rows that are read together."""
 
-_CONTINUING = {method.name for method in _vorocl.methods() if method.continues}
+_CONTINUING = {name for name, _, continues in _vorocl.methods() if continues}
 
 
 class _Workspace(threading.local):
@@ -97,7 +97,9 @@ def _filled(
     if labels is None:
         made.fill(_workspace.seeds, method, metric)
     else:
-        made._fill_into(_workspace.seeds, method, metric, labels)
+        made._diagram.fill(
+            _workspace.seeds._seeds, to_text(method, "method"), to_text(metric, "metric"), None, labels
+        )
     return made
 
 
@@ -269,7 +271,7 @@ def from_mask(
     grid = Grid(shape, periodic=periodic)
     made = Diagram(grid, device=device)
     seeds = _vorocl.Seeds.from_mask(made.device._device, grid._of("count"), to_marked(pixels).view(np.uint8))
-    made._diagram.fill(seeds, method, metric, None)
+    made._diagram.fill(seeds, method, metric, None, None)
     made.read(labels.reshape(made.shape))
     return labels
 

@@ -258,10 +258,8 @@ class Diagram(OnDevice):
         self._shape, self._units = made.shape, made._units  # the latter of its seeds, when it has some
         self._device = to_device(device)
         self._are_in_data = False  # what the points of its seeds are in
-        if labels is None:
-            self._diagram = _vorocl.Diagram(self._device._device, made._of("count"))
-        else:
-            self._diagram = _vorocl.Diagram.over_buffer(self._device._device, made._of("count"), _handle(labels))
+        there = None if labels is None else _handle(labels)
+        self._diagram = _vorocl.Diagram(self._device._device, made._of("count"), there)
 
     @property
     def device(self) -> Device:
@@ -309,14 +307,10 @@ class Diagram(OnDevice):
         """
         displacement = None if max_displacement is None else to_number(max_displacement, "max_displacement")
         report = self._diagram.fill(
-            to_seeds(seeds), to_text(method, "method"), to_text(metric, "metric"), displacement
+            to_seeds(seeds), to_text(method, "method"), to_text(metric, "metric"), displacement, None
         )
         self._are_in_data, self._units = seeds._are_in_data, seeds.grid._units
         return report
-
-    def _fill_into(self, seeds: Seeds, method: str, metric: str, labels: NDArray[np.uint32]) -> None:
-        """Fill and read at once: where the device shares the host's memory, labels are made in the array."""
-        self._diagram.fill_into(to_seeds(seeds), to_text(method, "method"), to_text(metric, "metric"), labels)
 
     def read(self, out: Optional[NDArray[np.uint32]] = None) -> NDArray[np.uint32]:
         """Wait for the diagram and copy its labels.
@@ -623,7 +617,7 @@ class Diagram(OnDevice):
         return DistanceErrors(*self._diagram.errors(None if truth is None else to_truth(truth)))
 
 
-def _points_there(points: Any, dimensions: int) -> Optional[_vorocl.PointBuffer]:
+def _points_there(points: Any, dimensions: int) -> Optional[Tuple[int, int, int, bool]]:
     """What a pyopencl.array.Array of points holds; None for everything else."""
     module = sys.modules.get("pyopencl.array")
     if module is None or not isinstance(points, module.Array):
@@ -636,7 +630,7 @@ def _points_there(points: Any, dimensions: int) -> Optional[_vorocl.PointBuffer]
             f"points on the device must be N rows of {dimensions} float32 or float64, whole and contiguous; this array has "
             f"the shape {points.shape} and the dtype {points.dtype}"
         )
-    return _vorocl.PointBuffer.of(points.base_data.int_ptr, points.shape[0], dimensions, bool(doubles))
+    return points.base_data.int_ptr, points.shape[0], dimensions, bool(doubles)
 
 
 def _handle(buffer: Buffer) -> int:
