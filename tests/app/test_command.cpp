@@ -11,6 +11,7 @@
 
 #include "brute_force.hpp"
 #include "formats/raster_files.hpp"
+#include "raw_images.hpp"
 #include "run_command.hpp"
 
 using namespace vorocl;
@@ -202,7 +203,7 @@ BOOST_AUTO_TEST_CASE(pixels_beyond_the_greatest_distance_have_no_label) {
   const TemporaryFolder folder;
   folder.file("p.csv", "0.325,0.325\n12.675,12.675\n");
   const std::string render = "render --points p.csv --size 20x20 --bounds 0,0,13,13 --max-distance 4.55 ";
-  succeeds(folder, render + "--labels a.npy --enlarge 2 -o a.png");
+  const std::string said = succeeds(folder, render + "--labels a.npy --enlarge 2 -o a.png");
   const auto labels = labels_of(folder, "a.npy");
   const cv::Mat picture = cv::imread(folder / "a.png");
   for (int i = 0; i < 400; ++i) {
@@ -213,6 +214,23 @@ BOOST_AUTO_TEST_CASE(pixels_beyond_the_greatest_distance_have_no_label) {
     if (x == y && label == no_label)
       BOOST_TEST((picture.at<cv::Vec3b>(2 * y + 1, 2 * x + 1) == cv::Vec3b(0, 0, 0)));
   }
+  // Cells are measured without them.
+  const auto within = std::count(labels.begin(), labels.end(), 0u);
+  BOOST_TEST(
+      said.find(fmt::format("{} pixels farther than --max-distance", 400 - 2 * within)) != std::string::npos,
+      said);
+  const std::string cells = "cells --points p.csv --size 20x20 --bounds 0,0,13,13 ";
+  const nlohmann::json result = nlohmann::json::parse(
+      succeeds(folder, cells + "--json --units px --cells c.csv --cell-columns id,area,right,neighbours "
+                               "--distance d.npy --max-distance 7"));
+  BOOST_TEST(result.at("beyond_max_distance") == 400 - 2 * within);
+  BOOST_TEST(content_of(folder / "c.csv") ==
+             fmt::format("id,area,right,neighbours\n0,{0},7,0\n1,{0},19,0\n", within));
+  const auto distances = read_raw_npy<float>(folder / "d.npy").values;
+  for (std::size_t i = 0; i < distances.size(); ++i)
+    BOOST_TEST((std::isinf(distances[i]) == (labels[i] == no_label)), "pixel " << i);
+  refuses(folder, "cells --exact --points p.csv --cells e.csv --max-distance 4", usage,
+          {"--max-distance", "--exact"});
   succeeds(folder, render + "--units px --labels b.npy");  // beyond no pixel of the first seven
   BOOST_TEST(labels_of(folder, "b.npy")[4] == 0u);
   BOOST_TEST(labels_of(folder, "b.npy")[5] == no_label);

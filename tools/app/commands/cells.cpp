@@ -39,6 +39,7 @@ struct CellsOptions {
   SeedOptions seeds;
   Method method = vorocl::method("exact");
   MethodOptions method_options;
+  std::optional<double> max_distance;
   std::string device;
   CellsFiles files;
   bool json = false;
@@ -72,7 +73,9 @@ std::vector<Output> open_outputs(const CellsOptions& options) {
   return outputs;
 }
 
-void print_result(const CellsOptions& options, const Seeds& seeds, const Report& report, Measures& measures) {
+/// `beyond`: how many pixels are too far away, where that is asked for.
+void print_result(const CellsOptions& options, const Seeds& seeds, const Report& report,
+                  const std::optional<std::size_t>& beyond, Measures& measures) {
   const CellStatistics statistics = measures.statistics();
   const View& view = measures.view();
   const std::size_t unlabelled = view.window.pixels() - statistics.pixels;
@@ -89,6 +92,7 @@ void print_result(const CellsOptions& options, const Seeds& seeds, const Report&
                          {"area_deviation", statistics.area_deviation},
                          {"vertices", measures.vertices()}});
     }
+    if (beyond) result["beyond_max_distance"] = *beyond;
     result.update(Json{{"pairs", measures.pair_count()},
                        {"waves", report.waves()},
                        {"milliseconds", report.milliseconds()},
@@ -98,7 +102,8 @@ void print_result(const CellsOptions& options, const Seeds& seeds, const Report&
   }
   print_diagram(options.method, seeds, view, report);
   print_empty_cells(statistics.empty_cells, statistics.cells, seeds.alive(), name_of_pixel(view));
-  if (options.is_volume()) print_unlabelled(unlabelled, seeds.alive());
+  if (options.is_volume()) print_unlabelled(unlabelled - beyond.value_or(0), seeds.alive());
+  print_beyond(beyond, view);
   print("the mean {} is {:.6g}, with a deviation of {:.6g} ({})\n", options.is_volume() ? "volume" : "area",
         statistics.mean_area, statistics.area_deviation, view.units.area_title());
   if (!options.is_volume()) print("{}, ", counted(measures.vertices(), "vertex", "vertices"));
@@ -108,8 +113,9 @@ void print_result(const CellsOptions& options, const Seeds& seeds, const Report&
 
 /// The cells without a diagram. Throws UsageError for options that say something of one.
 void run_exact(const Command& command, const CellsOptions& options) {
-  for (const char* name : {"--method", "--metric", "--neighbourhood", "--von-neumann-waves", "--extra-waves",
-                           "--refresh-interval", "--reach", "--snap", "--distance", "--border", "--labels"}) {
+  for (const char* name :
+       {"--method", "--metric", "--neighbourhood", "--von-neumann-waves", "--extra-waves",
+        "--refresh-interval", "--reach", "--snap", "--distance", "--border", "--labels", "--max-distance"}) {
     if (command.has(name)) throw UsageError(std::string(name) + " is of diagrams, and --exact makes none");
   }
   if (in_pixels(options.seeds)) {
@@ -123,16 +129,19 @@ void run_exact(const Command& command, const CellsOptions& options) {
 void run(const CellsOptions& options) {
   const std::vector<Output> outputs = open_outputs(options);
   const Input input = options.is_volume() ? read_volume_input(options.seeds) : read_input(options.seeds);
+  check_max_distance(options.max_distance, input.view);
   const Device device = select_device(options.device);
   const FinishAtEnd finish(device);
   const Seeds seeds = input.place(device);
   Diagram diagram(device, input.view.window);
   const Report report = options.method.run(seeds, diagram, options.method_options);
+  std::optional<std::size_t> beyond;
+  if (options.max_distance) beyond = leave_out_beyond(*options.max_distance, seeds, input.view, diagram);
   MeasureBuffers buffers;
   Measures measures(seeds, diagram, input.ids, input.view, buffers);
   if (!input.kept.names.empty()) measures.keep(input.kept);
   for (const Output& output : outputs) output.kind.write(output.file, measures);
-  print_result(options, seeds, report, measures);
+  print_result(options, seeds, report, beyond, measures);
 }
 
 }  // namespace
@@ -156,6 +165,7 @@ void add_cells(CommandLine& line) {
   }
   add_cell_columns_option(command, files.cells);
   add_keep_option(command, options->seeds);
+  add_max_distance_option(command, options->max_distance);
   add_crs_option(command, options->seeds.crs, "labels and distances as .tif and polygons as .geojson say")
       .needs("--points");
   add_json_option(command, options->json);

@@ -70,8 +70,9 @@ Outputs open_outputs(const RenderOptions& options) {
   return outputs;
 }
 
+/// `beyond`: how many pixels are too far away, where that is asked for.
 void print_result(const RenderOptions& options, const Seeds& seeds, const Report& report,
-                  Measures& measures) {
+                  const std::optional<std::size_t>& beyond, Measures& measures) {
   const View& view = measures.view();
   const CellCount count = measures.cell_count();
   std::size_t unlabelled = 0;
@@ -83,6 +84,7 @@ void print_result(const RenderOptions& options, const Seeds& seeds, const Report
     Json result = json_of_diagram(options.method, options.method_options.metric, seeds, view);
     result.update(Json{{"seeds", seeds.alive()}, {"empty_cells", count.empty}});
     result.update(options.is_volume() ? Json{{"unlabelled_voxels", unlabelled}} : Json{{"frames", 1}});
+    if (beyond) result["beyond_max_distance"] = *beyond;
     result.update(Json{{"waves", report.waves()},
                        {"milliseconds", report.milliseconds()},
                        {"host_milliseconds", report.host_milliseconds()}});
@@ -91,7 +93,8 @@ void print_result(const RenderOptions& options, const Seeds& seeds, const Report
   }
   print_diagram(options.method, seeds, view, report);
   print_empty_cells(count.empty, count.cells, seeds.alive(), name_of_pixel(view));
-  if (options.is_volume() && !options.max_distance) print_unlabelled(unlabelled, seeds.alive());
+  if (options.is_volume()) print_unlabelled(unlabelled - beyond.value_or(0), seeds.alive());
+  print_beyond(beyond, view);
   print_written(requested_files(options));
 }
 
@@ -116,19 +119,16 @@ void run(const RenderOptions& options) {
   const Outputs outputs = open_outputs(options);
   const Input input = options.is_volume() ? read_volume_input(options.seeds) : read_input(options.seeds);
   if (!options.is_volume()) check_picture_size(options.picture, input.view.picture.size);
-  if (options.max_distance && input.view.units.lengths_stay_in_pixels()) {
-    throw UsageError(
-        "--max-distance: pixels are no squares, voxels no cubes, in data units, so distances are in pixels; "
-        "say --units px if D is, or give a --size of the shape of the bounds");
-  }
+  check_max_distance(options.max_distance, input.view);
   const Device device = select_device(options.device);
   const FinishAtEnd finish(device);
   const Seeds seeds = input.place(device);
   MeasureBuffers buffers;
   Diagram diagram = buffers.diagram_to_read(device, input.view.window);
   const Report report = options.method.run(seeds, diagram, options.method_options);
+  std::optional<std::size_t> beyond;
+  if (options.max_distance) beyond = leave_out_beyond(*options.max_distance, seeds, input.view, diagram);
   Measures measures(seeds, diagram, input.ids, input.view, buffers);
-  if (options.max_distance) measures.leave_out_beyond(*options.max_distance);
   if (outputs.labels) options.labels.kind.write(*outputs.labels, measures);
   if (options.draws()) {
     Painter painter(options.picture, outputs.waves != nullptr);
@@ -141,13 +141,7 @@ void run(const RenderOptions& options) {
       draw_waves(*outputs.waves, plan, input, seeds, options.method_options.metric, painter);
     }
   }
-  print_result(options, seeds, report, measures);
-}
-
-std::optional<double> parse_distance(const std::string& text) {
-  const auto distance = parse_number<double>(text);
-  if (!distance || !(*distance >= 0)) throw Error("\"" + text + "\" is no distance of 0 or more");
-  return distance;
+  print_result(options, seeds, report, beyond, measures);
 }
 
 /// Throws UsageError for options that volumes do not have, and asks for the files that they do.
@@ -181,11 +175,7 @@ void add_render(CommandLine& line) {
       .value_name("PICTURE");
   add_file_option(command, options->labels);
   add_crs_option(command, options->seeds.crs, "labels as .tif say").needs("--points");
-  command
-      .add_parsed(
-          "--max-distance", options->max_distance, parse_distance,
-          "Leave pixels without a label that are farther than D from their seed, in the unit of distances")
-      .value_name("D");
+  add_max_distance_option(command, options->max_distance);
   command
       .add("--waves", options->waves_pattern,
            "Pictures to write of the diagram before the first wave and after every wave, such as "

@@ -43,6 +43,9 @@ void check_crs(const std::optional<Crs>& crs, const std::vector<std::string>& pa
 /// Adds --keep, for the subcommands that have tables of cells of points.
 void add_keep_option(Command& command, SeedOptions& options);
 
+/// Adds --max-distance, for the subcommands that may leave pixels without a label.
+void add_max_distance_option(Command& command, std::optional<double>& distance);
+
 /// Adds --frame, for the subcommands that show one frame.
 void add_frame_option(Command& command, SeedOptions& options);
 

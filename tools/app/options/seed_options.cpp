@@ -372,6 +372,19 @@ void add_frame_option(Command& command, SeedOptions& options) {
       .in_section(seed_files);
 }
 
+void add_max_distance_option(Command& command, std::optional<double>& distance) {
+  const auto parse = [](const std::string& text) {
+    const auto number = parse_number<double>(text);
+    if (!number || !(*number >= 0)) throw Error("\"" + text + "\" is no distance of 0 or more");
+    return number;
+  };
+  command
+      .add_parsed(
+          "--max-distance", distance, parse,
+          "Leave pixels without a label that are farther than D from their seed, in the unit of distances")
+      .value_name("D");
+}
+
 void add_units_option(Command& command, SeedOptions& options, const std::string& with_data) {
   const Choices<std::optional<MeasureUnits>> units = {{"data", MeasureUnits::data},
                                                       {"px", MeasureUnits::pixels}};

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <limits>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 #include <tuple>
@@ -182,17 +181,6 @@ CellCount Measures::cell_count() {
   return {seeds_->alive(), seeds_->alive() - count};
 }
 
-void Measures::leave_out_beyond(double distance) {
-  distances();                                // before the labels change, which it may share
-  const double most = distance * (1 + 1e-6);  // a float's rounding leaves out no pixel
-  labels();
-  for (std::size_t i = 0; i < images_.distances.size(); ++i) {
-    if (!(view_.units.length(static_cast<double>(images_.distances[i])) > most)) continue;
-    images_.labels[i] = no_label;
-    images_.distances[i] = std::numeric_limits<float>::infinity();
-  }
-}
-
 const std::vector<std::uint32_t>& Measures::labels_by_id() {
   if (ids_.empty()) return labels();
   if (!has_ids_) {
@@ -263,6 +251,29 @@ const AdjacencyResult& Measures::adjacency_result() {
   return buffers_.adjacency;
 }
 
+void check_max_distance(const std::optional<double>& distance, const View& view) {
+  if (!distance || !view.units.lengths_stay_in_pixels()) return;
+  throw UsageError(
+      "--max-distance: pixels are no squares, voxels no cubes, in data units, so distances are in pixels; "
+      "say --units px if D is, or give a --size of the shape of the bounds");
+}
+
+std::size_t leave_out_beyond(double distance, const Seeds& seeds, const View& view, Diagram& diagram) {
+  Field<float> field;
+  distance_field(diagram, field);
+  const std::vector<float> distances = view.units.lengths(field.read());
+  const double most = distance * (1 + 1e-6);  // a float's rounding leaves out no pixel
+  std::vector<std::uint32_t> labels = diagram.read();
+  std::size_t beyond = 0;
+  for (std::size_t i = 0; i < labels.size(); ++i) {
+    if (labels[i] == no_label || !(static_cast<double>(distances[i]) > most)) continue;
+    labels[i] = no_label;
+    ++beyond;
+  }
+  diagram.write(labels, seeds, diagram.metric());
+  return beyond;
+}
+
 Json json_of_grid(Metric metric, const Seeds& seeds, std::int64_t width, std::int64_t height) {
   const Grid& grid = seeds.grid();
   Json json = {
@@ -280,6 +291,11 @@ Json json_of_diagram(const Method& method, Metric metric, const Seeds& seeds, co
   json.update(Json{{seeds.grid().is_volume() ? "volume_unit" : "area_unit", view.units.of_area()},
                    {"length_unit", view.units.of_length()}});
   return json;
+}
+
+void print_beyond(const std::optional<std::size_t>& beyond, const View& view) {
+  if (beyond)
+    print("{} farther than --max-distance, without a label\n", counted(*beyond, name_of_pixel(view)));
 }
 
 const char* name_of_pixel(const View& view) { return view.is_volume() ? "voxel" : "pixel"; }

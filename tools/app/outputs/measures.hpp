@@ -109,10 +109,6 @@ class Measures {
 
   // Made of these on the host.
 
-  /// From here on pixels farther than this from the seed of their label, in the unit of distances, have no
-  /// label, and an infinite distance. Of these labels the device's measures know nothing.
-  void leave_out_beyond(double distance);
-
   /// The labels as files have them, and these in the picture.
   const std::vector<std::uint32_t>& labels_by_id();
   const std::vector<std::uint32_t>& labels_in_picture();
@@ -165,11 +161,21 @@ class Measures {
   std::optional<CellStatistics> statistics_;
 };
 
+/// Throws UsageError for a distance where lengths have no scale in the data.
+void check_max_distance(const std::optional<double>& distance, const View& view);
+
+/// Leaves pixels that are farther than this from their seed, in the view's units, without a label, and
+/// returns how many.
+std::size_t leave_out_beyond(double distance, const Seeds& seeds, const View& view, Diagram& diagram);
+
 /// The metric, the device and the grid of the seeds; the sides are those of what is shown.
 Json json_of_grid(Metric metric, const Seeds& seeds, std::int64_t width, std::int64_t height);
 
 /// How a diagram of seeds was made, and how it stands in the data.
 Json json_of_diagram(const Method& method, Metric metric, const Seeds& seeds, const View& view);
+
+/// How many pixels are left out, where that is asked for: a line on standard output.
+void print_beyond(const std::optional<std::size_t>& beyond, const View& view);
 
 /// "pixel", of a volume "voxel".
 const char* name_of_pixel(const View& view);
