@@ -56,12 +56,16 @@ struct VolumeSize {
 /// "64 x 32 x 16"; of one slice "64 x 32".
 std::string to_string(const VolumeSize& size);
 
-/// A rectangle in data units.
+/// A rectangle in data units, or a box.
 struct Bounds {
   double x0 = 0;
   double y0 = 0;
   double x1 = 0;
   double y1 = 0;
+  double z0 = 0;  ///< of a volume, as z1
+  double z1 = 0;
+
+  bool is_box() const { return z0 < z1; }
 };
 
 /// An image of labels, or a volume of them.

@@ -60,8 +60,7 @@ void print_result(const BenchOptions& options, const Seeds& seeds, const View& v
 }
 
 void run(const BenchOptions& options) {
-  const bool is_volume = options.seeds.depth > 1;
-  const Input input = is_volume ? read_volume_input(options.seeds) : read_input(options.seeds);
+  const Input input = read_input(options.seeds);
   refuse_window(input, "bench");
   const Device device = select_device(options.device);
   const FinishAtEnd finish(device);

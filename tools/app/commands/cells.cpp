@@ -128,7 +128,7 @@ void run_exact(const Command& command, const CellsOptions& options) {
 
 void run(const CellsOptions& options) {
   const std::vector<Output> outputs = open_outputs(options);
-  const Input input = options.is_volume() ? read_volume_input(options.seeds) : read_input(options.seeds);
+  const Input input = read_input(options.seeds);
   check_max_distance(options.max_distance, input.view);
   const Device device = select_device(options.device);
   const FinishAtEnd finish(device);

@@ -110,7 +110,7 @@ Comparison compare_with_exact(const CompareOptions& options) {
   const bool is_volume = seed_options.depth > 1;
   if (image.depth > 1 && seed_options.width != 0) refuse_in_volumes("--width");
   if (is_volume) check_volume_method(method("exact"), options.metric);
-  const Input input = is_volume ? read_volume_input(seed_options) : read_input(seed_options);
+  const Input input = read_input(seed_options);
   const View& view = input.view;
   check_sizes(options.a, size_of(image), "the diagram of the seeds",
               {view.picture.size.width(), view.picture.size.height(), view.window.depth()});

@@ -88,8 +88,8 @@ void run_exact_cells(const ExactCellsOptions& options) {
                                   polygons = open_output(options.polygons);
   if (!cells && !adjacency && !polygons)
     throw UsageError("nothing to write: give at least one of --cells, --adjacency, --polygons");
-  const ExactInput input = read_exact_input(options.seeds);
-  const bool is_volume = input.grid.is_volume();
+  const Input input = read_exact_input(options.seeds);
+  const bool is_volume = input.view.is_volume();
   check_polygons(options.polygons, is_volume);
   const ExactTable cells_table = exact_cells_table(options.columns, is_volume);
   const Device device = select_device(options.device);
@@ -97,7 +97,7 @@ void run_exact_cells(const ExactCellsOptions& options) {
   const Seeds seeds = input.place(device);
   ExactCellsResult result;
   const Report report = exact_cells(seeds, result);
-  ExactCellRows rows(seeds, result, input, points_up(options.seeds));
+  ExactCellRows rows(seeds, result, input, options.seeds);
   if (cells) cells_table.write(*cells, rows);
   if (adjacency) exact_pairs_table(is_volume).write(*adjacency, rows);
   if (polygons) rows.write_polygons(*polygons);

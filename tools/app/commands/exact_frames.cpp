@@ -69,10 +69,10 @@ class ExactRun {
     if (!options.polygons.empty()) polygons_.emplace(options.polygons);
   }
 
-  void add(const Device& device, const ExactInput& input) {
+  void add(const Device& device, const Input& input) {
     const Seeds seeds = input.place(device);
     const Report report = exact_cells(seeds, result_);
-    ExactCellRows rows(seeds, result_, input, points_up(options_.seeds));
+    ExactCellRows rows(seeds, result_, input, options_.seeds);
     if (frame_ % options_.every == 0) {
       cells_.add(rows, frame_, input.timestep.value_or(frame_));
       pairs_.add(rows, frame_, input.timestep.value_or(frame_));
@@ -138,7 +138,7 @@ void run_exact_frames(const ExactFramesOptions& options) {
   while (frames.count() < options.frames.first && frames.skip()) {
     if (interruption.came()) throw Error("interrupted, before the first frame was made");
   }
-  std::optional<ExactInput> input = frames.next();
+  std::optional<Input> input = frames.next();
   if (!input)
     throw Error(fmt::format("{}: there is no frame {}, only {}", options.seeds.trajectory,
                             options.frames.first, counted(frames.count(), "frame")));

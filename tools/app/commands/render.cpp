@@ -117,7 +117,7 @@ void draw_waves(const NumberedFiles& files, const Plan& plan, const Input& input
 
 void run(const RenderOptions& options) {
   const Outputs outputs = open_outputs(options);
-  const Input input = options.is_volume() ? read_volume_input(options.seeds) : read_input(options.seeds);
+  const Input input = read_input(options.seeds);
   if (!options.is_volume()) check_picture_size(options.picture, input.view.picture.size);
   check_max_distance(options.max_distance, input.view);
   const Device device = select_device(options.device);

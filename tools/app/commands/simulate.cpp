@@ -43,10 +43,11 @@ class Run {
         source_(source),
         interruption_(interruption),
         writer_(writer),
-        simulation_(source.place(device), source.view().window, [this](Seeds& moving, Window& window, int) {
-          source_.move(moving, window);
-          displacement_ = source_.displacement();
-        }) {
+        simulation_(source.frame().place(device), source.frame().view.window,
+                    [this](Seeds& moving, Window& window, int) {
+                      source_.move(moving, window);
+                      displacement_ = source_.frame().displacement;
+                    }) {
     add_engine(options.method, options.method_options);
     if (options.compare_with) {
       // The reference: it runs with its own waves, whatever those of the first method are.
@@ -63,8 +64,8 @@ class Run {
 
   /// Of the last frame.
   std::shared_ptr<Measures> measures() {
-    return std::make_shared<Measures>(simulation_.seeds(), simulation_.diagram(main_engine), source_.ids(),
-                                      source_.view(), buffers_);
+    return std::make_shared<Measures>(simulation_.seeds(), simulation_.diagram(main_engine),
+                                      source_.frame().ids, source_.frame().view, buffers_);
   }
 
   /// Goes through the frames before the first one. A method that goes on from the last labels makes them
@@ -114,7 +115,8 @@ class Run {
   /// Its kernels are built before: this must not count as time of the first frames.
   void add_engine(const Method& method, const MethodOptions& options) {
     const Seeds& seeds = simulation_.seeds();
-    prepare(method, seeds.device(), source_.view().window, seeds.size(), options, options_.seeds.snapping());
+    prepare(method, seeds.device(), source_.frame().view.window, seeds.size(), options,
+            options_.seeds.snapping());
     simulation_.add_engine([this, run = method.run, options](const Seeds& of, Diagram& diagram) {
       MethodOptions known = options;
       known.max_displacement = displacement_;  // which a box may make less than the seeds know
@@ -134,7 +136,7 @@ class Run {
     if (simulation_.frame() == 0) return;
     ++course_.timed;
     if (options_.method.continues) {
-      course_.plans.add(simulation_.report(main_engine), displacement_, source_.view().window);
+      course_.plans.add(simulation_.report(main_engine), displacement_, source_.frame().view.window);
     }
   }
 
@@ -184,11 +186,11 @@ class Run {
   FrameFacts facts() const {
     const int frame = simulation_.frame();
     return {frame,
-            source_.timestep().value_or(frame),
-            stamp_of(frame, source_.timestep()),
+            source_.frame().timestep.value_or(frame),
+            stamp_of(frame, source_.frame().timestep),
             0,
-            source_.box(),
-            source_.values(),
+            source_.frame().box,
+            source_.frame().values,
             {}};
   }
 
@@ -211,7 +213,7 @@ void run(const SimulateOptions& options) {
   check_picture_options(options.output.picture);
   FrameWriter writer(options.output, options.other_is_exact());
   const std::unique_ptr<MovingSeeds> source = read_moving_seeds(options.seeds, options.motion, interruption);
-  const View& view = source->view();
+  const View& view = source->frame().view;
   const std::optional<VolumeSlice>& slice = options.output.picture.slice;
   check_picture_size(options.output.picture,
                      slice ? size_of_slice(view.window.grid(), *slice) : view.picture.size);

@@ -26,7 +26,7 @@ Json range(const Samples& samples) {
 Json json_of(const SimulateOptions& options, const MovingSeeds& source, Simulation& simulation,
              const Course& course, Measures& measures) {
   const Seeds& seeds = simulation.seeds();
-  Json result = json_of_diagram(options.method, options.method_options.metric, seeds, source.view());
+  Json result = json_of_diagram(options.method, options.method_options.metric, seeds, source.frame().view);
   result.update(Json{{"seeds", seeds.alive()},
                      {"empty_cells", measures.cell_count().empty},
                      {"first_frame", options.motion.frames.first},
@@ -71,7 +71,7 @@ void print_times(const std::string& method, Simulation& simulation, std::size_t 
 void print_text(const SimulateOptions& options, const MovingSeeds& source, Simulation& simulation,
                 const Course& course, Measures& measures) {
   const Seeds& seeds = simulation.seeds();
-  const View& view = source.view();
+  const View& view = source.frame().view;
   const int first = options.motion.frames.first;
   print("{} after frame {}, {} on {}, on {}\n", counted(simulation.frame() - first, "frame"), first,
         counted(seeds.alive(), "seed"), size_text(view), seeds.device().name());

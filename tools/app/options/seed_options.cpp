@@ -89,28 +89,10 @@ void add_margin_option(Command& command, SeedOptions& options) {
       .excludes(command.option("--bounds"));
 }
 
-/// "X0,Y0,X1,Y1", or "X0,Y0,Z0,X1,Y1,Z1" of a volume, whose z is set apart.
-Bounds parse_bounds_and_z(const std::string& text, std::optional<std::pair<double, double>>& z) {
-  z.reset();
-  const auto commas = std::count(text.begin(), text.end(), ',');
-  if (commas == 3) return parse_bounds(text);
-  const Error error("\"" + text + "\" must be X0,Y0,X1,Y1 or, of a volume, X0,Y0,Z0,X1,Y1,Z1: numbers with " +
-                    "X0 < X1, Y0 < Y1 and Z0 < Z1");
-  if (commas != 5) throw error;
-  std::vector<std::string> numbers;
-  for (std::size_t begin = 0; begin <= text.size();) {
-    const auto comma = std::min(text.find(',', begin), text.size());
-    numbers.push_back(text.substr(begin, comma - begin));
-    begin = comma + 1;
-  }
-  try {
-    const Bounds along_z = parse_bounds("0," + numbers[2] + ",1," + numbers[5]);
-    const Bounds bounds = parse_bounds(numbers[0] + ',' + numbers[1] + ',' + numbers[3] + ',' + numbers[4]);
-    z = {along_z.y0, along_z.y1};
-    return bounds;
-  } catch (const Error&) {
-    throw error;
-  }
+void add_bounds_option(Command& command, SeedOptions& options, const std::string& about,
+                       bool volumes = false) {
+  const auto parse = [volumes](const std::string& text) { return parse_bounds(text, volumes); };
+  command.add_parsed("--bounds", options.bounds, parse, about).value_name("X0,Y0,X1,Y1");
 }
 
 Bounds parse_domain(const std::string& text) {
@@ -268,14 +250,8 @@ void add_seed_options(Command& command, SeedOptions& options, std::size_t least,
   const std::string fitted = move ? "what --fit says of a trajectory" : "the box of a trajectory's frame";
   const std::string about_bounds = "Rectangle in data units that the grid shows; else " + fitted +
                                    ", or the domain or the bounding box of the points";
-  if (volumes) {
-    const auto set = [&options](const std::string& text) {
-      options.bounds = parse_bounds_and_z(text, options.z_bounds);
-    };
-    command.add("--bounds", set, about_bounds + "; of a volume X0,Y0,Z0,X1,Y1,Z1").value_name("X0,Y0,X1,Y1");
-  } else {
-    command.add_parsed("--bounds", options.bounds, parse_bounds, about_bounds).value_name("X0,Y0,X1,Y1");
-  }
+  add_bounds_option(command, options, about_bounds + (volumes ? "; of a volume X0,Y0,Z0,X1,Y1,Z1" : ""),
+                    volumes);
   add_margin_option(command, options);
   add_outside_option(command, options);
   command
@@ -309,10 +285,8 @@ void add_plane_options(Command& command, PlaneInputOptions& options) {
       .add_parsed("--size", options.size, parse_plane,
                   "Width and height of the plane in pixels; with --mask those of the image")
       .value_name("WxH");
-  command
-      .add_parsed("--bounds", seeds.bounds, parse_bounds,
-                  "Rectangle in data units that the plane shows; else the bounding box of the points")
-      .value_name("X0,Y0,X1,Y1");
+  add_bounds_option(command, seeds,
+                    "Rectangle in data units that the plane shows; else the bounding box of the points");
   add_margin_option(command, seeds);
   add_outside_option(command, seeds);
   add_periodic_option(command, seeds, false,

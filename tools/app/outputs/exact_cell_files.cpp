@@ -109,11 +109,11 @@ PeriodCounts move_to_cell(Point& seed, const ExactCell& cell, const Grid& grid) 
 
 }  // namespace
 
-ExactCellRows::ExactCellRows(const Seeds& seeds, const ExactCellsResult& result, const ExactInput& input,
-                             bool y_up)
+ExactCellRows::ExactCellRows(const Seeds& seeds, const ExactCellsResult& result, const Input& input,
+                             const SeedOptions& options)
     : result_(result),
       input_(input),
-      y_up_(y_up && !input.grid.is_volume()),
+      options_(options),
       points_(seeds.read()),
       cells_(result.read()),
       periods_(cells_.size()) {
@@ -162,12 +162,13 @@ void ExactCellRows::add_cells(GrowingFile& table, const std::string& first,
       std::any_of(columns.begin(), columns.end(), [](const Column& column) { return column.of_vertices; });
   const ExactPolygons* const polygons = need_vertices && !is_volume() ? &this->polygons() : nullptr;
   const ExactPolyhedra* const polyhedra = need_vertices && is_volume() ? &this->polyhedra() : nullptr;
+  const bool y_up = points_up(options_) && !is_volume();
   add_rows(table, first, order_, [&](RowText& text, std::size_t seed) {
     const Vertices vertices = polygons != nullptr ? vertices_of(polygons->vertices, polygons->offsets, seed)
                               : polyhedra != nullptr
                                   ? vertices_of(polyhedra->vertices, polyhedra->vertex_offsets, seed)
                                   : Vertices();
-    const Row row = {id_of(seed), *points_[seed], cells_[seed], vertices, y_up_};
+    const Row row = {id_of(seed), *points_[seed], cells_[seed], vertices, y_up};
     for (const Column& column : columns) text.add(column.value(row));
     if (!kept().fields.empty()) text.add(kept().fields[seed]);
   });
@@ -200,9 +201,9 @@ void ExactCellRows::write_polygons(const OutputFile& file) {
     cells.back().polygon.assign(vertices.begin(), vertices.end());
   }
   if (is_volume()) return write_polyhedra(file, cells, order_, polyhedra(), kept().names);
-  const Axis& x = input_.grid.x();
+  const Axis& x = input_.view.window.grid().x();
   const bool has_date_line = x.is_periodic() && x.from() == -180 && x.to() == 180;
-  command::write_polygons(file, cells, {kept().names, input_.crs, has_date_line});
+  command::write_polygons(file, cells, {kept().names, options_.crs, has_date_line});
 }
 
 std::size_t ExactCellRows::empty_cells() const {

@@ -21,9 +21,10 @@ using PeriodCounts = std::array<std::int32_t, 3>;
 /// Exact cells by the ids that files have. What is asked for is read once, when it is first asked for.
 class ExactCellRows {
  public:
-  /// `y_up`: the top of a cell has its greatest y. Keeps references to the result and the input, which the
-  /// seeds are of. Waits; throws as the library, as do its functions.
-  ExactCellRows(const Seeds& seeds, const ExactCellsResult& result, const ExactInput& input, bool y_up);
+  /// Keeps references to the result, the input, which the seeds are of, and the options that asked for it.
+  /// Waits; throws as the library, as do its functions.
+  ExactCellRows(const Seeds& seeds, const ExactCellsResult& result, const Input& input,
+                const SeedOptions& options);
 
   /// One row per cell, by id, with these columns: some of cell_columns(). Seeds outside the rectangle
   /// have one only if their cells reach into it. A field is empty where an empty cell has no value. `first`
@@ -49,15 +50,15 @@ class ExactCellRows {
   std::uint32_t id_of(std::size_t seed) const {
     return input_.ids.empty() ? static_cast<std::uint32_t>(seed) : input_.ids.at(seed);
   }
-  bool is_volume() const { return input_.grid.is_volume(); }
+  bool is_volume() const { return input_.view.is_volume(); }
   const std::vector<ExactPair>& pairs();
   const std::vector<ExactFace>& faces();
   const ExactPolygons& polygons();
   const ExactPolyhedra& polyhedra();
 
   const ExactCellsResult& result_;
-  const ExactInput& input_;
-  bool y_up_;
+  const Input& input_;
+  const SeedOptions& options_;
   std::vector<std::optional<Point>> points_;
   std::vector<ExactCell> cells_;
   std::vector<PeriodCounts> periods_;  // from the seeds' points to the images that their cells lie around

@@ -32,18 +32,26 @@ void check_bounds(const Bounds& bounds, Axes axes) {
   if (has_y(axes) && height == 0) refuse("have no extent in y, which is to be periodic");
 }
 
-Bounds parse_bounds(const std::string& text) {
-  const Error error("\"" + text + "\" must be X0,Y0,X1,Y1: four numbers with X0 < X1 and Y0 < Y1");
+Bounds parse_bounds(const std::string& text, bool of_volumes) {
+  const auto commas = std::count(text.begin(), text.end(), ',');
+  const bool has_z = of_volumes && commas == 5;
   std::vector<double> values;
   for (std::size_t begin = 0; begin <= text.size();) {
     const auto comma = std::min(text.find(',', begin), text.size());
     const auto value = parse_number<double>(std::string_view(text).substr(begin, comma - begin));
-    if (!value || !std::isfinite(*value)) throw error;
-    values.push_back(*value);
+    if (value && std::isfinite(*value)) values.push_back(*value);
     begin = comma + 1;
   }
-  if (values.size() != 4 || values[0] >= values[2] || values[1] >= values[3]) throw error;
-  return {values[0], values[1], values[2], values[3]};
+  const std::size_t axes = has_z ? 3 : 2;
+  bool is_good = commas == (has_z ? 5 : 3) && values.size() == 2 * axes;
+  for (std::size_t axis = 0; is_good && axis < axes; ++axis) is_good = values[axis] < values[axis + axes];
+  if (is_good && has_z) return {values[0], values[1], values[3], values[4], values[2], values[5]};
+  if (is_good) return {values[0], values[1], values[2], values[3]};
+  throw Error(
+      "\"" + text + "\" must be " +
+      (of_volumes && commas != 3
+           ? "X0,Y0,X1,Y1 or, of a volume, X0,Y0,Z0,X1,Y1,Z1: numbers with X0 < X1, Y0 < Y1 and Z0 < Z1"
+           : "X0,Y0,X1,Y1: four numbers with X0 < X1 and Y0 < Y1"));
 }
 
 std::string to_string(const Bounds& bounds) {
@@ -55,20 +63,25 @@ std::string to_string(Axes axes) {
   return names[static_cast<std::size_t>(axes)];
 }
 
-Bounds bounding_box(const std::vector<Point>& points) {
-  Bounds box{points.at(0).x, points[0].y, points[0].x, points[0].y};
+Bounds bounding_box(const std::vector<Point>& points, bool of_volume) {
+  const auto around = [](const Point& point) {
+    return Bounds{point.x, point.y, point.x, point.y, point.z, point.z};
+  };
+  Bounds box = around(points.at(0));
   for (std::size_t i = 0; i < points.size(); ++i) {
     const Point& point = points[i];
-    if (!std::isfinite(point.x) || !std::isfinite(point.y)) {
-      throw Error(fmt::format("point {} at ({}, {}) is not finite", i, point.x, point.y));
+    if (!std::isfinite(point.x) || !std::isfinite(point.y) || !std::isfinite(point.z)) {
+      throw Error(fmt::format("point {} at ({}, {}{}) is not finite", i, point.x, point.y,
+                              of_volume ? fmt::format(", {}", point.z) : ""));
     }
-    box = joined(box, {point.x, point.y, point.x, point.y});
+    box = joined(box, around(point));
   }
   return box;
 }
 
 Bounds joined(const Bounds& a, const Bounds& b) {
-  return {std::min(a.x0, b.x0), std::min(a.y0, b.y0), std::max(a.x1, b.x1), std::max(a.y1, b.y1)};
+  return {std::min(a.x0, b.x0), std::min(a.y0, b.y0), std::max(a.x1, b.x1),
+          std::max(a.y1, b.y1), std::min(a.z0, b.z0), std::max(a.z1, b.z1)};
 }
 
 Bounds widened(const Bounds& bounds, double percent) {
@@ -130,24 +143,31 @@ void note_outside(std::size_t outside, std::size_t points, const Bounds& bounds,
   print_note(what + "; they count, and --outside refuse makes them an error");
 }
 
-void note_of_turn(const Frame& frame) {
-  if (!frame.box || frame.box->turned == 0) return;
-  print_note(
-      fmt::format("the box is turned by {:.6g} degrees in its plane: it is turned back, with its particles",
-                  frame.box->turned));
-}
-
-void note_of_frame(const Frame& frame, int number, const std::optional<Axes>& told) {
-  note_of_turn(frame);
-  if (frame.z_span > 0) {
+void note_of_frame(const Frame& frame, int number, const std::optional<Axes>& told, bool of_volume) {
+  if (frame.box && frame.box->turned != 0) {
+    print_note(
+        fmt::format("the box is turned by {:.6g} degrees in its plane: it is turned back, with its particles",
+                    frame.box->turned));
+  }
+  if (!of_volume && frame.z_span > 0) {
     print_note(fmt::format("z is left out, along which the particles of frame {} span {:.6g}", number,
                            frame.z_span));
   }
   if (!frame.box || !told) return;
-  const Axes axes = axes_of(frame.box->periodic_x, frame.box->periodic_y);
+  const Axes axes = periodic_axes(*frame.box, of_volume);
   if (*told == axes) return;
   print_note(fmt::format("the periodic axes of the file's box are {}; --periodic {} counts instead",
                          to_string(axes), to_string(*told)));
+}
+
+Axes periodic_axes(const Box& box, bool of_volume) {
+  return axes_of(box.periodic_x, box.periodic_y, of_volume && box.periodic_z);
+}
+
+std::vector<Point> points_of(const Frame& frame) {
+  std::vector<Point> points = frame.positions;
+  for (std::size_t i = 0; i < frame.z.size(); ++i) points[i].z = frame.z[i];
+  return points;
 }
 
 namespace {
@@ -165,21 +185,25 @@ bool read(TrajectoryReader& reader, Frame& frame) {
 }  // namespace
 
 std::optional<Bounds> bounds_of(const Frame& frame) {
-  if (frame.box) return Bounds{frame.box->x0, frame.box->y0, frame.box->x1, frame.box->y1};
+  if (const std::optional<Box>& box = frame.box) {
+    return Bounds{box->x0, box->y0, box->x1, box->y1, box->z0, box->z1};
+  }
   if (frame.positions.empty()) return std::nullopt;
-  return bounding_box(frame.positions);
+  return frame.z.empty() ? bounding_box(frame.positions) : bounding_box(points_of(frame), true);
 }
 
-bool read_all_frames(const std::string& path, Wanted wanted, std::optional<int> frames,
-                     const Interruption& interruption, const std::function<void(const Frame&)>& take) {
+std::optional<Bounds> bounds_of_all_frames(const std::string& path, bool of_volume, std::optional<int> frames,
+                                           const Interruption& interruption) {
   std::error_code code;
-  if (!std::filesystem::is_regular_file(path, code)) return false;
-  const std::unique_ptr<TrajectoryReader> reader = open_trajectory(path, "", wanted);
+  if (!std::filesystem::is_regular_file(path, code)) return std::nullopt;
+  const std::unique_ptr<TrajectoryReader> reader =
+      open_trajectory(path, "", of_volume ? Wanted::box_of_volume : Wanted::box);
   const std::optional<std::uintmax_t> bytes = reader->bytes_left();
   Progress progress({"frames read"});
+  std::optional<Bounds> all;
   Frame frame;
   for (int count = 0; (!frames || count <= *frames) && read(*reader, frame); ++count) {
-    take(frame);
+    if (const auto bounds = bounds_of(frame)) all = all ? joined(*all, *bounds) : *bounds;
     const auto left = reader->bytes_left();
     progress.show(count + 1,
                   bytes && left && *bytes > 0
@@ -187,15 +211,6 @@ bool read_all_frames(const std::string& path, Wanted wanted, std::optional<int> 
                       : std::nullopt);
     if (interruption.came()) throw Error("interrupted before the first frame was made");
   }
-  return true;
-}
-
-std::optional<Bounds> bounds_of_all_frames(const std::string& path, std::optional<int> frames,
-                                           const Interruption& interruption) {
-  std::optional<Bounds> all;
-  read_all_frames(path, Wanted::box, frames, interruption, [&all](const Frame& frame) {
-    if (const auto bounds = bounds_of(frame)) all = all ? joined(*all, *bounds) : *bounds;
-  });
   return all;
 }
 

@@ -1,7 +1,6 @@
 // The bounds of the data: read, written, and chosen where none are given.
 #pragma once
 
-#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -17,8 +16,9 @@ namespace vorocl::command {
 /// axes, and are neither so far apart nor so near that an Axis has no scale for them.
 void check_bounds(const Bounds& bounds, Axes axes = Axes::none);
 
-/// "X0,Y0,X1,Y1" to bounds. Throws Error unless these are four finite numbers with X0 < X1 and Y0 < Y1.
-Bounds parse_bounds(const std::string& text);
+/// "X0,Y0,X1,Y1" to bounds, or "X0,Y0,Z0,X1,Y1,Z1" where there may be volumes. Throws Error unless these are
+/// so many finite numbers with X0 < X1, Y0 < Y1 and Z0 < Z1.
+Bounds parse_bounds(const std::string& text, bool of_volumes = false);
 
 std::string to_string(const Bounds& bounds);
 
@@ -26,7 +26,7 @@ std::string to_string(const Bounds& bounds);
 std::string to_string(Axes axes);
 
 /// The least bounds that hold all points (at least one). Throws Error if one is not finite.
-Bounds bounding_box(const std::vector<Point>& points);
+Bounds bounding_box(const std::vector<Point>& points, bool of_volume = false);
 
 /// The least bounds that hold both.
 Bounds joined(const Bounds& a, const Bounds& b);
@@ -51,24 +51,22 @@ void warn_of_scales(const Bounds& bounds, const Grid& grid, const std::string& a
 void note_outside(std::size_t outside, std::size_t points, const Bounds& bounds,
                   const std::string& keeps_inside = "");
 
-/// Says on standard error that the frame's box is turned, if it is.
-void note_of_turn(const Frame& frame);
+/// Says on standard error what may surprise of a trajectory, by one of its frames: that the box is turned,
+/// that z is left out, and that the box has other periodic axes than what counts instead, if that is told.
+void note_of_frame(const Frame& frame, int number, const std::optional<Axes>& told, bool of_volume);
 
-/// Says on standard error what may surprise of a trajectory, by one of its frames: that z is left out, and
-/// that its box has other periodic axes than what counts instead, if that is told.
-void note_of_frame(const Frame& frame, int number, const std::optional<Axes>& told);
+Axes periodic_axes(const Box& box, bool of_volume);
+
+/// The particles, with z where a volume was wanted.
+std::vector<Point> points_of(const Frame& frame);
 
 /// A frame's box, else the bounding box of its particles; none if it has neither.
 std::optional<Bounds> bounds_of(const Frame& frame);
 
-/// Reads all frames of a file, or the first and so many after it, with a progress bar, up to the first frame
-/// that is bad. False for a pipe, which cannot be read twice. Throws Error if it is interrupted, or the file
-/// cannot be read.
-bool read_all_frames(const std::string& path, Wanted wanted, std::optional<int> frames,
-                     const Interruption& interruption, const std::function<void(const Frame&)>& take);
-
-/// The least bounds that hold those of all frames that are read so; none for a pipe.
-std::optional<Bounds> bounds_of_all_frames(const std::string& path, std::optional<int> frames,
+/// The least bounds that hold those of all frames of a file, or of the first and so many after it, up to the
+/// first frame that is bad, read with a progress bar; none for a pipe, which cannot be read twice. Throws
+/// Error if it is interrupted, or the file cannot be read.
+std::optional<Bounds> bounds_of_all_frames(const std::string& path, bool of_volume, std::optional<int> frames,
                                            const Interruption& interruption);
 
 }  // namespace vorocl::command

@@ -30,7 +30,7 @@ bool has_depth(const SeedOptions& options) {
 
 /// See read_exact_input(). Checks the options.
 bool is_volume(const SeedOptions& options) {
-  const bool is_told = options.depth > 1 || options.z_bounds ||
+  const bool is_told = options.depth > 1 || (options.bounds && options.bounds->is_box()) ||
                        (options.periodic && has_z(*options.periodic)) ||
                        (options.columns && !options.columns->z.empty());
   const bool may_be_told = !options.bounds && !options.columns && !options.domain && options.mask.empty();
@@ -64,10 +64,10 @@ Grid grid_of(const SeedOptions& options, const Bounds& repeats, Axes periodic, c
       .tilted(tilt);
 }
 
-ExactInput input_of(const SeedOptions& options, const std::string& file, const Grid& grid,
-                    std::vector<Point> points, std::vector<std::uint32_t> ids) {
+Input input_of(const SeedOptions& options, const std::string& file, const Grid& grid,
+               std::vector<Point> points, std::vector<std::uint32_t> ids) {
   const Outside outside = grid.is_volume() ? Outside::refuse : options.outside.value_or(Outside::count);
-  return {grid,
+  return {{Size(1, 1), grid},
           [file, grid, points = std::move(points), outside](const Device& device) {
             try {
               return Seeds(device, grid, points, {outside});
@@ -87,7 +87,7 @@ void note_points(const SeedOptions& options, const Grid& grid, const std::vector
                points.size(), {grid.x().from(), grid.y().from(), grid.x().to(), grid.y().to()});
 }
 
-ExactInput exact_input_from_points(const SeedOptions& options) {
+Input exact_input_from_points(const SeedOptions& options) {
   CsvPoints read = read_points(options);
   std::vector<Point>& points = read.points;
   try {
@@ -96,102 +96,71 @@ ExactInput exact_input_from_points(const SeedOptions& options) {
                                             : widened(bounding_box(points), options.margin);
     const Grid grid = grid_of(options, repeats, options.periodic.value_or(Axes::none), "the domain");
     note_points(options, grid, points);
-    ExactInput input = input_of(options, options.points, grid, std::move(points), std::move(read.ids));
+    Input input = input_of(options, options.points, grid, std::move(points), std::move(read.ids));
     input.kept = {std::move(read.kept_names), std::move(read.kept)};
-    input.crs = options.crs;
     return input;
   } catch (const Error& error) {
     throw Error(options.points + ": " + error.what());
   }
 }
 
-ExactInput input_of_frame(const SeedOptions& options, Frame frame, int number, bool is_first) {
+Grid grid_of_plane(const SeedOptions& options, const Frame& frame) {
   const std::optional<Bounds> filled = bounds_of(frame);
-  if (!filled && !options.bounds) {
-    throw Error(fmt::format("frame {} has neither a box nor particles: give --bounds", number));
-  }
-  Axes periodic = options.periodic.value_or(Axes::none);
-  if (frame.box && !options.periodic) periodic = axes_of(frame.box->periodic_x, frame.box->periodic_y);
+  if (!filled && !options.bounds) throw Error("it has neither a box nor particles: give --bounds");
+  const Axes periodic = options.periodic.value_or(frame.box ? periodic_axes(*frame.box, false) : Axes::none);
   const double tilt = frame.box ? frame.box->tilt : 0;
   if (tilt != 0 && periodic != Axes::xy) {
     throw Error(
-        fmt::format("the box of frame {} is tilted: --exact cuts it as periodic in x and y, so leave "
-                    "--periodic out, or give --periodic xy",
-                    number));
+        "the box is tilted: --exact cuts it as periodic in x and y, so leave --periodic out, or give "
+        "--periodic xy");
   }
-  const Bounds repeats = filled ? *filled : *options.bounds;
-  const Grid grid = grid_of(options, repeats, periodic, "the box", tilt);
-  if (is_first) {
-    note_of_frame(frame, number, options.periodic);
-    note_points(options, grid, frame.positions);
-  }
-  ExactInput input =
-      input_of(options, options.trajectory, grid, std::move(frame.positions), std::move(frame.ids));
-  input.timestep = frame.timestep;
-  return input;
+  return grid_of(options, filled ? *filled : *options.bounds, periodic, "the box", tilt);
 }
 
-ExactInput volume_of_frame(const SeedOptions& options, Frame frame, int number, bool is_first) {
-  std::vector<Point> points = points_of(frame);
-  try {
-    const Grid grid = grid_of_frame(options, frame, points);
-    if (is_first) note_of_volume(options, frame);
-    ExactInput input = input_of(options, options.trajectory, grid, std::move(points), std::move(frame.ids));
-    input.timestep = frame.timestep;
-    return input;
-  } catch (const Error& error) {
-    throw Error(fmt::format("frame {}: {}", number, error.what()));
-  }
-}
-
-ExactInput volume_without_voxels(SeedOptions options) {
-  if (options.random == 0) options.size.reset();
-  Input input = read_volume_input(options);
-  return {input.view.window.grid(), std::move(input.place), std::move(input.ids), {}, std::move(input.kept)};
-}
-
-ExactInput exact_input_from_trajectory(const SeedOptions& options) {
+Input exact_input_from_trajectory(const SeedOptions& options) {
   ExactFrames frames(options);
-  for (int number = 0; number < options.frame && frames.skip();) ++number;
-  if (std::optional<ExactInput> input = frames.next()) return std::move(*input);
-  throw Error(fmt::format("{}: there is no frame {}; the last one of the file is {}, counted from 0",
-                          options.trajectory, options.frame, frames.count() - 1));
+  frames.go_to(options.frame);
+  return frames.take();
 }
 
 }  // namespace
 
 ExactFrames::ExactFrames(const SeedOptions& options)
-    : options_(options),
-      is_volume_(command::is_volume(options)),
-      reader_(open_trajectory(options.trajectory, "", is_volume_ ? Wanted::volume : Wanted::all)) {}
+    : options_(options), is_volume_(command::is_volume(options)), reader_(options, is_volume_) {}
 
-bool ExactFrames::skip() {
-  const bool is_there = reader_->next(frame_);
-  count_ += is_there ? 1 : 0;
-  return is_there;
-}
+std::optional<Input> ExactFrames::next() { return skip() ? std::optional(take()) : std::nullopt; }
 
-std::optional<ExactInput> ExactFrames::next() {
-  if (!skip()) return {};
+Input ExactFrames::take() {
+  Frame& frame = reader_.frame();
+  std::vector<Point> points = is_volume_ ? points_of(frame) : std::move(frame.positions);
   try {
-    const auto input = is_volume_ ? volume_of_frame : input_of_frame;
-    return input(options_, std::move(frame_), count_ - 1, std::exchange(is_first_, false));
+    const Grid grid = is_volume_ ? grid_of_frame(options_, frame, points) : grid_of_plane(options_, frame);
+    if (std::exchange(is_first_, false)) {
+      note_of_frame(frame, reader_.number(), options_.periodic, is_volume_);
+      if (!is_volume_) note_points(options_, grid, points);
+    }
+    Input input = input_of(options_, options_.trajectory, grid, std::move(points), std::move(frame.ids));
+    input.timestep = frame.timestep;
+    return input;
   } catch (const Error& error) {
-    throw Error(options_.trajectory + ": " + error.what());
+    throw reader_.error(error);
   }
 }
 
-ExactInput read_exact_input(const SeedOptions& options) {
+Input read_exact_input(const SeedOptions& options) {
   if (!options.trajectory.empty()) return exact_input_from_trajectory(options);
-  if (is_volume(options)) return volume_without_voxels(options);
+  if (is_volume(options)) {
+    SeedOptions without_voxels = options;
+    if (options.random == 0) without_voxels.size.reset();
+    return read_volume_input(without_voxels);
+  }
   if (!options.points.empty()) return exact_input_from_points(options);
-  const Input input = read_input(options);
-  return {input.view.window.grid(),
-          [place = input.place](const Device& device) {
-            const Seeds pixels = place(device);
-            return Seeds(device, pixels.grid(), pixels.read_pixels());
-          },
-          {}};
+  Input input = read_input(options);
+  input.place = [place = std::move(input.place)](const Device& device) {
+    const Seeds pixels = place(device);
+    return Seeds(device, pixels.grid(), pixels.read_pixels());
+  };
+  return input;
 }
 
 }  // namespace vorocl::command

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <future>
 #include <system_error>
-#include <type_traits>
 #include <utility>
 
 #include "app/sources/bounds.hpp"
@@ -24,21 +23,16 @@ class RandomWalk : public MovingSeeds {
         motion_{*motion.step_length, seeds.rng_seed, motion.border},
         frames_(*motion.frames.last) {
     refuse_window(input_, "random motion");
+    input_.displacement = motion_.step_length;
   }
 
-  const View& view() const override { return input_.view; }
-  Seeds place(const Device& device) const override { return input_.place(device); }
+  const Input& frame() const override { return input_; }
   bool next() override {
     if (frame_ == frames_) return false;
     ++frame_;
     return true;
   }
   void move(Seeds& seeds, Window& window) const override { motion_(seeds, window, frame_); }
-  std::optional<double> displacement() const override { return motion_.step_length; }
-  const std::vector<std::uint32_t>& ids() const override { return input_.ids; }
-  const ColumnValues& values() const override { return input_.values; }
-  std::optional<Box> box() const override { return std::nullopt; }
-  std::optional<std::int64_t> timestep() const override { return std::nullopt; }
   std::optional<double> done() const override { return static_cast<double>(frame_) / frames_; }
 
  private:
@@ -48,56 +42,29 @@ class RandomWalk : public MovingSeeds {
   int frame_ = 0;
 };
 
-/// What is known of a frame of a trajectory.
-template <typename Points>
-struct PlacedFrame {
-  Points points;
-  std::vector<std::uint32_t> ids;
-  ColumnValues values;
-  std::optional<View> view;  // of every frame
-  std::optional<double> displacement;
-  std::optional<Box> box;
-  std::optional<std::int64_t> timestep;
-  std::optional<std::uintmax_t> bytes_left;
-  bool is_there = true;
-};
-
-/// Reads and places the next frame of a file in a thread, while the present one is worked on. The particles
-/// are TrajectorySeeds or VolumeFrames.
-template <typename Particles>
+/// Reads and places the next frame of a file in a thread, while the present one is worked on.
 class Trajectory : public MovingSeeds {
  public:
-  template <typename... Fitted>
-  Trajectory(const SeedOptions& seeds, const MotionOptions& motion, const Fitted&... fitted)
-      : particles_(seeds, 0, fitted...),
-        snap_(seeds.snapping()),
+  Trajectory(const SeedOptions& seeds, const MotionOptions& motion, const std::optional<Bounds>& all)
+      : particles_(seeds, 0, motion.fit, all),
         frames_(motion.frames.last),
-        bytes_(particles_.bytes_left()) {
-    take_particles(present_);
-  }
+        present_(*particles_.next()),
+        bytes_(present_.bytes_left) {}
 
-  const View& view() const override { return *present_.view; }
-  Seeds place(const Device& device) const override {
-    return {device, view().window.grid(), present_.points, {Outside::count, snap_}};
-  }
+  const Input& frame() const override { return present_; }
   bool next() override {
     if (frame_ == frames_) return false;
-    Placed next = ahead_.valid() ? ahead_.get() : place_next(std::move(room_));
-    if (!next.is_there) return false;
-    room_ = std::exchange(present_, std::move(next));
+    std::optional<Input> next = ahead_.valid() ? ahead_.get() : particles_.next();
+    if (!next) return false;
+    present_ = std::move(*next);
     ++frame_;
     place_ahead();
     return true;
   }
   void move(Seeds& seeds, Window& window) const override {
-    window = view().window;
-    seeds.move_to(window.grid(), present_.points);
+    window = present_.view.window;
+    seeds.move_to(window.grid(), *present_.points);
   }
-  std::optional<double> displacement() const override { return present_.displacement; }
-  const std::vector<std::uint32_t>& ids() const override { return present_.ids; }
-  const ColumnValues& values() const override { return present_.values; }
-  std::optional<Box> box() const override { return present_.box; }
-  std::optional<std::int64_t> timestep() const override { return present_.timestep; }
   std::optional<double> done() const override {
     const double of_frames = frames_ ? static_cast<double>(frame_) / *frames_ : 0;
     const auto left = present_.bytes_left;
@@ -106,43 +73,22 @@ class Trajectory : public MovingSeeds {
   }
 
  private:
-  using Placed = PlacedFrame<std::decay_t<decltype(std::declval<Particles>().points())>>;
-
-  void take_particles(Placed& frame) const {
-    frame.points = particles_.points();
-    frame.ids = particles_.ids();
-    frame.values = particles_.values();
-    frame.view = particles_.view();
-    frame.displacement = particles_.max_displacement();
-    frame.box = particles_.box();
-    frame.timestep = particles_.timestep();
-    frame.bytes_left = particles_.bytes_left();
-  }
-
-  Placed place_next(Placed room) {
-    room.is_there = particles_.next();
-    if (room.is_there) take_particles(room);
-    return room;
-  }
-
   void place_ahead() {
     // Not from a pipe, where the next frame may never come.
     if (frame_ == frames_ || !present_.bytes_left) return;
     try {
-      ahead_ = std::async(std::launch::async,
-                          [this, room = std::move(room_)]() mutable { return place_next(std::move(room)); });
+      ahead_ = std::async(std::launch::async, [this] { return particles_.next(); });
     } catch (const std::system_error&) {
       // Where the system allows no more threads, the frame is placed when it is needed.
     }
   }
 
-  Particles particles_;  // those of the frame that was placed last
-  Snap snap_;
+  TrajectorySeeds particles_;
   std::optional<int> frames_;
+  Input present_;
   std::optional<std::uintmax_t> bytes_;  // after frame 0
   int frame_ = 0;
-  Placed present_, room_;      // and memory for the next one
-  std::future<Placed> ahead_;  // none: nothing is being placed
+  std::future<std::optional<Input>> ahead_;  // none: nothing is being placed
 };
 
 }  // namespace
@@ -164,16 +110,13 @@ void note_of_last(const std::string& trajectory, const FrameRange& frames, int l
 std::unique_ptr<MovingSeeds> read_moving_seeds(const SeedOptions& seeds, const MotionOptions& motion,
                                                const Interruption& interruption) {
   const bool needs_all = motion.fit == Fit::all && !seeds.bounds;
-  if (seeds.depth > 1) {
-    return std::make_unique<Trajectory<VolumeFrames>>(
-        seeds, motion,
-        needs_all ? sides_of_all_frames(seeds.trajectory, motion.frames.last, interruption) : std::nullopt);
-  }
   if (!seeds.trajectory.empty()) {
-    check_seed_options(seeds);
-    return std::make_unique<Trajectory<TrajectorySeeds>>(
-        seeds, motion, motion.fit,
-        needs_all ? bounds_of_all_frames(seeds.trajectory, motion.frames.last, interruption) : std::nullopt);
+    const bool is_volume = seeds.depth > 1;
+    is_volume ? check_volume_options(seeds) : check_seed_options(seeds);
+    return std::make_unique<Trajectory>(
+        seeds, motion,
+        needs_all ? bounds_of_all_frames(seeds.trajectory, is_volume, motion.frames.last, interruption)
+                  : std::nullopt);
   }
   if (!motion.frames.last) throw UsageError("--frames L or K:L is required, except with --trajectory");
   if (!motion.step_length) throw UsageError("--step-length D is required, except with --trajectory");

@@ -39,33 +39,14 @@ class MovingSeeds {
  public:
   virtual ~MovingSeeds() = default;
 
-  /// Where the frame's diagram stands in the picture, which has one size in all frames.
-  virtual const View& view() const = 0;
-
-  /// The seeds of frame 0.
-  virtual Seeds place(const Device& device) const = 0;
+  /// The present frame, whose picture has one size in all frames, and how far a seed went to it at most.
+  virtual const Input& frame() const = 0;
 
   /// Makes the next motion ready; false if there is none. Throws Error if a file is bad there.
   virtual bool next() = 0;
 
   /// Moves the seeds by it, to where the frame's diagram has its window.
   virtual void move(Seeds& seeds, Window& window) const = 0;
-
-  /// How far a seed went by it along an axis, at most, in pixels: as the box of a frame repeats, also where
-  /// the picture does not. None where the diagram's window changes.
-  virtual std::optional<double> displacement() const = 0;
-
-  /// The ids that labels carry, by seed; empty: the seeds' own.
-  virtual const std::vector<std::uint32_t>& ids() const = 0;
-
-  /// The values of the value column, by seed; NaN: absent.
-  virtual const ColumnValues& values() const = 0;
-
-  /// The box of the frame; none without a trajectory, or in an XYZ without a lattice.
-  virtual std::optional<Box> box() const = 0;
-
-  /// What the file calls the time of the frame; none where it has no name for it.
-  virtual std::optional<std::int64_t> timestep() const = 0;
 
   /// How much of the whole is done, 0 ... 1, as far as that is known.
   virtual std::optional<double> done() const = 0;

@@ -8,6 +8,7 @@
 #include "app/sources/bounds.hpp"
 #include "app/sources/random_seeds.hpp"
 #include "app/sources/trajectory_seeds.hpp"
+#include "app/sources/volume_input.hpp"
 #include "app/terminal/console.hpp"
 #include "formats/files.hpp"
 #include "formats/images/pictures.hpp"
@@ -58,7 +59,6 @@ Input plane_from_points(const SeedOptions& options) {
             read.ids,
             read.values,
             mapped.is_window(),
-            {},
             {read.kept_names, read.kept}};
   } catch (const Error& error) {
     throw Error(options.points + ": " + error.what());
@@ -74,7 +74,6 @@ Input plane_from_mask(const SeedOptions& options) {
   return {
       {mask.size, grid},
       [grid, pixels = mask.pixels](const Device& device) { return Seeds::from_mask(device, grid, pixels); },
-      {},
       {}};
 }
 
@@ -96,22 +95,7 @@ Input plane_at_random(const SeedOptions& options) {
             }
             return Seeds(device, grid, pixels, {Outside::count, options.snapping()});
           },
-          {},
           {}};
-}
-
-Input plane_from_trajectory(const SeedOptions& options) {
-  const TrajectorySeeds particles(options, options.frame);
-  const View& view = particles.view();
-  return {view,
-          [grid = view.window.grid(), points = particles.points(),
-           snap = options.snapping()](const Device& device) {
-            return Seeds(device, grid, points, {Outside::count, snap});
-          },
-          particles.ids(),
-          particles.values(),
-          particles.is_window(),
-          particles.timestep()};
 }
 
 }  // namespace
@@ -147,9 +131,8 @@ void refuse_csv_options(const SeedOptions& options) {
 }
 
 void check_seed_options(const SeedOptions& options, bool needs_size) {
-  if (options.depth > 1) throw UsageError(std::string("--size ") + volumes_are_for);
-  const char* const of_volumes = options.z_bounds                ? "--bounds with six numbers"
-                                 : has_z(periodic_axes(options)) ? "--periodic with z"
+  const char* const of_volumes = options.bounds && options.bounds->is_box() ? "--bounds with six numbers"
+                                 : has_z(periodic_axes(options))            ? "--periodic with z"
                                  : options.columns && !options.columns->z.empty() ? "--columns X,Y,Z"
                                                                                   : nullptr;
   if (of_volumes != nullptr) {
@@ -203,8 +186,10 @@ bool points_up(const SeedOptions& options) {
 }
 
 Input read_input(const SeedOptions& options) {
-  check_seed_options(options);
-  if (!options.trajectory.empty()) return plane_from_trajectory(options);
+  const bool is_volume = options.depth > 1;
+  is_volume ? check_volume_options(options) : check_seed_options(options);
+  if (!options.trajectory.empty()) return *TrajectorySeeds(options, options.frame).next();
+  if (is_volume) return read_volume_input(options);
   if (options.random > 0) return plane_at_random(options);
   return options.mask.empty() ? plane_from_points(options) : plane_from_mask(options);
 }

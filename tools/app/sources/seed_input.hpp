@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
@@ -30,14 +31,13 @@ struct SeedOptions {
   std::optional<Size> size;
   std::int64_t depth = 1;  // more: a volume, which some commands make: see volume_input.hpp
   int width = 0;
-  std::optional<Bounds> bounds;
+  std::optional<Bounds> bounds;    // a box of a volume
   double margin = 0;               // without them, in percent of the longer side of the points' box
   std::optional<Crs> crs;          // of points
   std::optional<Bounds> domain;    // of points: what repeats along the periodic axes; else the bounds
   std::optional<Outside> outside;  // the bounds; else they count
   std::optional<Axes> periodic;    // else none, or what the trajectory says
-  std::optional<std::pair<double, double>> z_bounds;  // of a volume, as those of `bounds`
-  std::optional<Snap> snap;                           // of points and particles, as given; else ...
+  std::optional<Snap> snap;        // of points and particles, as given; else ...
   Snap usual_snap = Snap::none;
   Snap of_pixels = Snap::to_pixels;   // of masks and random seeds
   bool y_up = false, y_down = false;  // as given; see points_up()
@@ -99,18 +99,27 @@ bool in_pixels(const SeedOptions& options);
 struct Input {
   View view;
   std::function<Seeds(const Device&)> place;
-  std::vector<std::uint32_t> ids;                       // that labels carry, by seed; empty: the seeds' own
-  ColumnValues values;                                  // of the value column, by seed; NaN: absent
-  bool is_window = false;                               // see MappedPoints
-  std::optional<std::int64_t> timestep = std::nullopt;  // of a trajectory's frame, where the file has one
-  KeptColumns kept = {};                                // of --keep
+  std::vector<std::uint32_t> ids;  // that labels carry, by seed; empty: the seeds' own
+  ColumnValues values = {};        // of the value column, by seed; NaN: absent
+  bool is_window = false;          // see MappedPoints
+  KeptColumns kept = {};           // of --keep
+
+  // Of a trajectory's frame.
+  std::optional<std::int64_t> timestep = std::nullopt;  // where the file has one
+  std::optional<Box> box = std::nullopt;                // none in an XYZ without a lattice
+  std::shared_ptr<const std::vector<std::optional<Point>>> points = nullptr;  // that place() places
+
+  // The greatest displacement along an axis to this frame of a particle that was there before, in pixels of
+  // the diagram's grid, and none if that is another one; the shorter way round where the box is periodic.
+  std::optional<double> displacement = std::nullopt;
+  std::optional<std::uintmax_t> bytes_left = std::nullopt;  // of the file behind the frame
 };
 
 /// Throws Error for a window, or a diagram that is a part of the picture; `what` ("bench") takes none.
 void refuse_window(const Input& input, const std::string& what);
 
-/// Checks the options, and reads and checks the files. Throws UsageError, Error if a file is bad; warns on
-/// standard error where the axes get different scales.
+/// Checks the options, and reads and checks the files, of a plane or a volume. Throws UsageError, Error if a
+/// file is bad; warns on standard error where the axes get different scales.
 Input read_input(const SeedOptions& options);
 
 }  // namespace vorocl::command

@@ -10,15 +10,13 @@
 
 #include "app/sources/bounds.hpp"
 #include "app/sources/particles.hpp"
-#include "app/sources/seed_input.hpp"
+#include "app/sources/volume_input.hpp"
 #include "app/terminal/console.hpp"
 #include "vorocl/error.hpp"
 
 namespace vorocl::command {
 
 namespace {
-
-Axes periodic_axes(const Box& box) { return axes_of(box.periodic_x, box.periodic_y); }
 
 /// The first particle at each place, in a table with room for twice as many or more.
 class FirstAtPlaces {
@@ -82,47 +80,11 @@ std::vector<T> by_slot(const std::vector<T>& of_particles, const std::vector<std
 
 }  // namespace
 
-TrajectorySeeds::TrajectorySeeds(const SeedOptions& options, int start, Fit fit,
-                                 const std::optional<Bounds>& all)
+FrameReader::FrameReader(const SeedOptions& options, bool of_volume)
     : path_(options.trajectory),
-      given_bounds_(options.bounds),
-      keeps_inside_(options.keeps_inside),
-      fit_(fit),
-      fitted_(all),
-      told_axes_(options.periodic),
-      outside_is_(options.outside.value_or(Outside::count)),
-      y_up_(points_up(options)),
-      snap_(options.snapping()),
-      in_pixels_(in_pixels(options)) {
-  reader_ = open_trajectory(path_, options.value_column);
-  while (number_ < start) {
-    if (!read()) {
-      throw Error(fmt::format("{}: there is no frame {}; the last one of the file is {}, counted from 0",
-                              path_, start, number_));
-    }
-  }
-  has_boxes_ = frame_.box.has_value();
-  const std::optional<Bounds> bounds = shown_bounds();
-  take_frame(bounds, make_picture(options, bounds));
-  note_of_frame(frame_, number_, told_axes_);
-}
+      reader_(open_trajectory(path_, options.value_column, of_volume ? Wanted::volume : Wanted::all)) {}
 
-bool TrajectorySeeds::next() {
-  if (!read()) return false;
-  read_ahead();
-  take_frame(shown_bounds(), view_->picture.size);
-  return true;
-}
-
-TrajectorySeeds::Read TrajectorySeeds::read_into(Frame room) const {
-  Read read;
-  read.frame = std::move(room);
-  read.is_there = reader_->next(read.frame);
-  read.bytes_left = reader_->bytes_left();
-  return read;
-}
-
-bool TrajectorySeeds::read() {
+bool FrameReader::next() {
   Read read = ahead_.valid() ? ahead_.get() : read_into(std::move(room_));
   if (!read.is_there) return false;
   room_ = std::exchange(frame_, std::move(read.frame));
@@ -131,8 +93,15 @@ bool TrajectorySeeds::read() {
   return true;
 }
 
-void TrajectorySeeds::read_ahead() {
-  // Not from a pipe, where the next frame may never come.
+void FrameReader::go_to(int number) {
+  while (number_ < number) {
+    if (next()) continue;
+    throw Error(fmt::format("{}: there is no frame {}; the last one of the file is {}, counted from 0", path_,
+                            number, number_));
+  }
+}
+
+void FrameReader::read_ahead() {
   if (!bytes_left_) return;
   try {
     ahead_ = std::async(std::launch::async,
@@ -142,114 +111,175 @@ void TrajectorySeeds::read_ahead() {
   }
 }
 
+Error FrameReader::error(const Error& what) const {
+  return Error(fmt::format("{}: frame {}: {}", path_, number_, what.what()));
+}
+
+FrameReader::Read FrameReader::read_into(Frame room) const {
+  Read read;
+  read.frame = std::move(room);
+  read.is_there = reader_->next(read.frame);
+  read.bytes_left = reader_->bytes_left();
+  return read;
+}
+
+TrajectorySeeds::TrajectorySeeds(const SeedOptions& options, int start, Fit fit,
+                                 const std::optional<Bounds>& all)
+    : options_(options), reader_(options, is_volume()), fit_(fit), fitted_(all) {
+  reader_.go_to(start);
+  has_boxes_ = reader_.frame().box.has_value();
+}
+
+std::optional<Input> TrajectorySeeds::next() {
+  if (!is_first_) {
+    if (!reader_.next()) return std::nullopt;
+    reader_.read_ahead();
+  }
+  Input input = is_volume() ? volume() : plane();
+  const Frame& frame = reader_.frame();
+  if (is_first_) note_of_frame(frame, reader_.number(), options_.periodic, is_volume());
+  is_first_ = false;
+  window_ = input.view.window;
+  points_ = input.points;
+  input.place = [grid = window_->grid(), points = points_, snap = options_.snapping()](const Device& device) {
+    return Seeds(device, grid, *points, {Outside::count, snap});
+  };
+  input.timestep = frame.timestep;
+  input.box = frame.box;
+  input.bytes_left = reader_.bytes_left();
+  return input;
+}
+
+Input TrajectorySeeds::volume() {
+  const Frame& frame = reader_.frame();
+  const std::vector<Point> points = points_of(frame);
+  const Grid grid = [&] {
+    try {
+      return grid_of_frame(options_, frame, points, fitted_);
+    } catch (const Error& error) {
+      throw reader_.error(error);
+    }
+  }();
+  if (is_first_) note_scales(grid);
+  if (!scales_checked_) scales_checked_ = warn_of_voxels(grid, fmt::format("frame {}: ", reader_.number()));
+  Input input = {view_of_volume(grid, in_pixels(options_)), {}, frame.ids};
+  input.points = std::make_shared<std::vector<std::optional<Point>>>(points.begin(), points.end());
+  return input;
+}
+
 std::optional<Bounds> TrajectorySeeds::shown_bounds() {
-  if (given_bounds_) return given_bounds_;
-  if (fit_ == Fit::frame) return bounds_of(frame_);
-  if (!fitted_) fitted_ = bounds_of(frame_);
+  if (options_.bounds) return options_.bounds;
+  if (fit_ == Fit::frame) return bounds_of(reader_.frame());
+  if (!fitted_) fitted_ = bounds_of(reader_.frame());
   return fitted_;
 }
 
-Axes TrajectorySeeds::axes_of_frame() const {
-  return told_axes_ || !frame_.box ? told_axes_.value_or(Axes::none) : periodic_axes(*frame_.box);
-}
-
-Size TrajectorySeeds::make_picture(const SeedOptions& options, const std::optional<Bounds>& bounds) const {
-  if (options.size) return *options.size;
+Size TrajectorySeeds::size_of_picture(const std::optional<Bounds>& bounds) const {
+  if (options_.size) return *options_.size;
   if (!bounds) {
-    throw Error(path_ +
+    throw Error(options_.trajectory +
                 ": the frame has neither a box nor particles to tell the height by: give --size "
                 "instead of --width, or --bounds");
   }
   try {
-    return size_of_width(*bounds, options.width);
+    return size_of_width(*bounds, options_.width);
   } catch (const Error& error) {
-    throw Error(path_ + ": " + error.what());
+    throw Error(options_.trajectory + ": " + error.what());
   }
 }
 
 Mapping TrajectorySeeds::mapping_of_frame(const Bounds& bounds) const {
+  const std::optional<Box>& box = reader_.frame().box;
   Mapping mapping;
   mapping.bounds = bounds;
-  mapping.closed = !given_bounds_ || outside_is_ == Outside::refuse;
-  mapping.y_up = y_up_;
-  mapping.outside = outside_is_;
-  mapping.periodic = axes_of_frame();
-  mapping.snap = snap_;
-  mapping.in_pixels = in_pixels_;
-  mapping.has_one_scale = fit_ == Fit::all || given_bounds_;
-  if (const std::optional<Box>& box = frame_.box) {
-    mapping.domain = bounds_of(frame_);
+  mapping.outside = options_.outside.value_or(Outside::count);
+  mapping.closed = !options_.bounds || mapping.outside == Outside::refuse;
+  mapping.y_up = points_up(options_);
+  mapping.periodic = options_.periodic.value_or(box ? periodic_axes(*box, false) : Axes::none);
+  mapping.snap = options_.snapping();
+  mapping.in_pixels = in_pixels(options_);
+  mapping.has_one_scale = fit_ == Fit::all || options_.bounds;
+  if (box) {
+    mapping.domain = bounds_of(reader_.frame());
     mapping.ends = {!box->open_x0, !box->open_y0, !box->open_x1, !box->open_y1};
     if (mapping.periodic == Axes::xy) mapping.tilt = box->tilt;
     if (box->tilt != 0 && mapping.periodic == Axes::y) {
       throw Error("the box is tilted, so it does not repeat straight along y; give --periodic xy or x");
     }
-    if (mapping.tilt != 0 && !keeps_inside_.empty()) {
-      throw Error("the box is tilted, which " + keeps_inside_ +
+    if (mapping.tilt != 0 && !options_.keeps_inside.empty()) {
+      throw Error("the box is tilted, which " + options_.keeps_inside +
                   "; with --periodic x cells end at its border in y instead");
     }
-  } else if (given_bounds_ && has_boxes_ && mapping.periodic != Axes::none) {
+  } else if (options_.bounds && has_boxes_ && mapping.periodic != Axes::none) {
     throw Error("there is no box to say what repeats along the axes of --periodic; give --periodic none");
   }
   return mapping;
 }
 
 void TrajectorySeeds::note_of_scales(const Bounds& bounds, std::size_t outside) {
-  if (fit_ == Fit::frame && !given_bounds_) {
-    warn_of_scales(bounds, view_->picture.size.grid(), "--fit all has one scale for all frames");
+  const Grid grid = picture_->grid();
+  if (fit_ == Fit::frame && !options_.bounds) {
+    warn_of_scales(bounds, grid, "--fit all has one scale for all frames");
   } else if (!scales_checked_) {
-    warn_of_scales(bounds, view_->picture.size.grid());
+    warn_of_scales(bounds, grid);
   }
   note_of_growth();
-  if (!scales_checked_ && given_bounds_) note_outside(outside, frame_.ids.size(), bounds, keeps_inside_);
+  if (!scales_checked_ && options_.bounds) {
+    note_outside(outside, reader_.frame().ids.size(), bounds, options_.keeps_inside);
+  }
   scales_checked_ = true;
 }
 
 void TrajectorySeeds::note_of_growth() {
-  const auto own = bounds_of(frame_);
-  if (growth_noted_ || fit_ == Fit::frame || given_bounds_ || !fitted_ || !own) return;
+  const auto own = bounds_of(reader_.frame());
+  if (growth_noted_ || fit_ == Fit::frame || options_.bounds || !fitted_ || !own) return;
   if (own->x0 >= fitted_->x0 && own->y0 >= fitted_->y0 && own->x1 <= fitted_->x1 && own->y1 <= fitted_->y1) {
     return;
   }
   print_note(
       fmt::format("{}: frame {} fills more than the picture, which shows what the first frame does because "
                   "the file is read once; give --bounds, or the file by its name",
-                  path_, number_));
+                  options_.trajectory, reader_.number()));
   growth_noted_ = true;
 }
 
-void TrajectorySeeds::take_frame(const std::optional<Bounds>& bounds, const Size& picture) {
-  MappedPoints mapped{{picture, picture.grid()}, {}};
+Input TrajectorySeeds::plane() {
+  const Frame& frame = reader_.frame();
+  const std::optional<Bounds> bounds = shown_bounds();
+  if (!picture_) picture_ = size_of_picture(bounds);
+  MappedPoints mapped{{*picture_, picture_->grid()}, {}};
   Periods periods;
   if (bounds) {
     try {
-      mapped = map_points(frame_.positions, mapping_of_frame(*bounds), picture, frame_.ids);
+      mapped = map_points(frame.positions, mapping_of_frame(*bounds), *picture_, frame.ids);
     } catch (const Error& error) {
-      throw Error(fmt::format("{}: frame {}: {}", path_, number_, error.what()));
+      throw reader_.error(error);
     }
-    if (frame_.box) periods = periods_in_pixels(*frame_.box, *bounds, picture, y_up_);
+    if (frame.box) periods = periods_in_pixels(*frame.box, *bounds, *picture_, points_up(options_));
+    note_of_scales(*bounds, mapped.outside);
   }
-  const bool has_other_window = view_ && view_->window != mapped.view.window;
-  view_ = mapped.view;
-  if (bounds) note_of_scales(*bounds, mapped.outside);
   const std::vector<Point>& places = mapped.places;
-  slots_.update(frame_.ids, places);
-  std::vector<std::optional<Point>> points(slots_.size());
-  for (std::size_t i = 0; i < places.size(); ++i) points[slots_.of_ids()[i]] = places[i];
-  max_displacement_ = has_other_window ? std::nullopt : std::optional<double>(0);
-  if (max_displacement_) {
-    for (std::size_t slot = 0; slot < std::min(points.size(), points_.size()); ++slot) {
-      // A slot that was taken holds the same particle still.
-      if (!points[slot] || !points_[slot]) continue;
-      max_displacement_ = std::max(*max_displacement_, displacement(*points_[slot], *points[slot], periods));
-    }
-  }
-  points_ = std::move(points);
-  is_window_ = mapped.is_window();
+  slots_.update(frame.ids, places);
+  const auto points = std::make_shared<std::vector<std::optional<Point>>>(slots_.size());
+  for (std::size_t i = 0; i < places.size(); ++i) (*points)[slots_.of_ids()[i]] = places[i];
   const std::vector<std::uint32_t> by_cell = slots_by_cell(places, slots_);
-  ids_ = by_slot(frame_.ids, by_cell, slots_.size(), no_label);
-  values_ = {by_slot(frame_.values.numbers, by_cell, slots_.size(), std::numeric_limits<double>::quiet_NaN()),
-             frame_.values.texts};
+  Input input = {
+      mapped.view,
+      {},
+      by_slot(frame.ids, by_cell, slots_.size(), no_label),
+      {by_slot(frame.values.numbers, by_cell, slots_.size(), std::numeric_limits<double>::quiet_NaN()),
+       frame.values.texts},
+      mapped.is_window()};
+  input.points = points;
+  if (window_ && *window_ != mapped.view.window) return input;
+  double greatest = 0;
+  for (std::size_t slot = 0; points_ && slot < std::min(points->size(), points_->size()); ++slot) {
+    // A slot that was taken holds the same particle still.
+    const std::optional<Point>&from = (*points_)[slot], &to = (*points)[slot];
+    if (from && to) greatest = std::max(greatest, displacement(*from, *to, periods));
+  }
+  input.displacement = greatest;
+  return input;
 }
 
 }  // namespace vorocl::command

@@ -1,4 +1,4 @@
-// The particles of a trajectory as moving seeds: mapped to pixels, each in a slot of its own.
+// The particles of a trajectory as moving seeds, of a plane or a volume.
 #pragma once
 
 #include <cstdint>
@@ -10,12 +10,10 @@
 
 #include "app/sources/mapping.hpp"
 #include "app/sources/particles.hpp"
+#include "app/sources/seed_input.hpp"
 #include "formats/trajectory/trajectory.hpp"
-#include "vorocl/seeds.hpp"
 
 namespace vorocl::command {
-
-struct SeedOptions;
 
 /// What a picture of many frames shows where no bounds are given.
 enum class Fit {
@@ -23,48 +21,32 @@ enum class Fit {
   frame  ///< each frame's own, stretched onto the picture
 };
 
-/// Holds one frame, and reads the next one of a file meanwhile: memory does not grow with the number of
-/// frames.
-class TrajectorySeeds {
+/// Reads the frames of a file one after the other. Holds one, and reads the next one meanwhile: memory does
+/// not grow with the number of frames.
+class FrameReader {
  public:
-  /// Reads the first frames, up to the one to start from. `all` are the bounds of all frames, else those of
-  /// the first that has some. Throws Error if the file is bad or has fewer frames; warns on standard error
-  /// where the axes get different scales, and notes there what of the box is left out.
-  explicit TrajectorySeeds(const SeedOptions& options, int start = 0, Fit fit = Fit::all,
-                           const std::optional<Bounds>& all = std::nullopt);
+  /// Throws Error if the file cannot be read.
+  FrameReader(const SeedOptions& options, bool of_volume);
 
-  /// Where the frame's diagram stands in the picture, which has one size in all frames.
-  const View& view() const { return *view_; }
-
-  /// Goes to the next frame; false after the last. Throws Error, and leaves the seeds as they are, if it is
-  /// bad, or has a particle outside the bounds where that is refused.
+  /// Goes to the next frame; false after the last. Throws Error if it is bad.
   bool next();
 
-  /// The seeds of the frame, by slot, in pixels of the grid that the diagram is a window of.
-  const std::vector<std::optional<Point>>& points() const { return points_; }
+  /// Goes on to a frame by its number. Throws Error if the file has fewer.
+  void go_to(int number);
 
-  /// As MappedPoints.
-  bool is_window() const { return is_window_; }
+  /// Begins to read the next one in a thread. Not from a pipe, where it may never come.
+  void read_ahead();
 
-  /// The frame's box; none in an XYZ without a lattice.
-  const std::optional<Box>& box() const { return frame_.box; }
-
-  /// The particles' ids, by slot; no_label for an empty slot. Of particles at one place the lowest slot,
-  /// whose label the pixels carry, has the lowest id.
-  const std::vector<std::uint32_t>& ids() const { return ids_; }
-
-  /// The values of the value column, in the same order; NaN for an empty slot, and without such a column.
-  const ColumnValues& values() const { return values_; }
-
-  /// The greatest displacement along an axis to this frame of a particle that was there before, in pixels of
-  /// the diagram's grid, and none if that is another one; the shorter way round where the box is periodic.
-  std::optional<double> max_displacement() const { return max_displacement_; }
-
-  /// The frame's time step, where the file has one.
-  std::optional<std::int64_t> timestep() const { return frame_.timestep; }
+  /// The present frame, which may be moved from.
+  Frame& frame() { return frame_; }
+  const Frame& frame() const { return frame_; }
+  int number() const { return number_; }
 
   /// How much of the file lies behind the frame; none where that is not known.
   std::optional<std::uintmax_t> bytes_left() const { return bytes_left_; }
+
+  /// An error in the frame, which it names.
+  Error error(const Error& what) const;
 
  private:
   /// What the reader gives next.
@@ -74,44 +56,55 @@ class TrajectorySeeds {
     std::optional<std::uintmax_t> bytes_left;
   };
   Read read_into(Frame room) const;
-  bool read();
-  void read_ahead();
-  /// What the picture shows; none if the frame, and those before it, have neither a box nor particles.
-  std::optional<Bounds> shown_bounds();
-  /// Along which axes the frame's box repeats, or the bounds where there is no box.
-  Axes axes_of_frame() const;
-  Mapping mapping_of_frame(const Bounds& bounds) const;
-  Size make_picture(const SeedOptions& options, const std::optional<Bounds>& bounds) const;
-  void note_of_scales(const Bounds& bounds, std::size_t outside);
-  void note_of_growth();
-  void take_frame(const std::optional<Bounds>& bounds, const Size& picture);
 
   std::string path_;
   std::unique_ptr<TrajectoryReader> reader_;
-  std::optional<Bounds> given_bounds_;
-  std::string keeps_inside_;  // see note_outside()
-  Fit fit_;
-  std::optional<Bounds> fitted_;   // the same for all frames
-  std::optional<Axes> told_axes_;  // by the caller, not by the file
-  Outside outside_is_;
-  bool y_up_;
-  Snap snap_;
-  bool in_pixels_;
-  bool has_boxes_ = false;  // the first frame has one
-  bool scales_checked_ = false;
-  bool growth_noted_ = false;
-
   Frame frame_, room_;  // the present frame, and memory for the next one
   std::optional<std::uintmax_t> bytes_left_;
   int number_ = -1;
-  std::optional<View> view_;  // set by the constructor
-  ParticleSlots slots_;
-  std::vector<std::optional<Point>> points_;
-  bool is_window_ = false;
-  std::vector<std::uint32_t> ids_;
-  ColumnValues values_;
-  std::optional<double> max_displacement_;
   std::future<Read> ahead_;  // none: nothing is being read
+};
+
+/// The frames as seeds. Those of a plane are in pixels of the grid that the diagram is a window of, each in a
+/// slot of its own as long as it is there; ids and values are by slot, and no_label and NaN for an empty one.
+/// Of particles at one place the lowest slot, whose label the pixels carry, has the lowest id.
+class TrajectorySeeds {
+ public:
+  /// Reads the first frames, up to the one to start from, and keeps a reference to the options. `all` are the
+  /// bounds of all frames; without them a plane shows those of the first frame that has some, and a volume
+  /// each frame's own. Throws Error if the file is bad or has fewer frames.
+  explicit TrajectorySeeds(const SeedOptions& options, int start = 0, Fit fit = Fit::all,
+                           const std::optional<Bounds>& all = std::nullopt);
+
+  /// The next frame, at first the one to start from; none after the last. Throws Error if it is bad, has no
+  /// z where it is to be a volume, or has a particle outside the bounds where that is refused; warns on
+  /// standard error where the axes get different scales, and notes there what of the box is left out.
+  std::optional<Input> next();
+
+ private:
+  bool is_volume() const { return options_.depth > 1; }
+  Input volume();
+  Input plane();
+  /// What the picture shows; none if the frame, and those before it, have neither a box nor particles.
+  std::optional<Bounds> shown_bounds();
+  Mapping mapping_of_frame(const Bounds& bounds) const;
+  Size size_of_picture(const std::optional<Bounds>& bounds) const;
+  void note_of_scales(const Bounds& bounds, std::size_t outside);
+  void note_of_growth();
+
+  const SeedOptions& options_;
+  FrameReader reader_;
+  Fit fit_;
+  std::optional<Bounds> fitted_;  // the same for all frames
+  bool is_first_ = true;          // frame, of those that next() gives
+  bool has_boxes_ = false;        // the first frame has one
+  bool scales_checked_ = false;
+  bool growth_noted_ = false;
+
+  std::optional<Size> picture_;   // the same for all frames
+  std::optional<Window> window_;  // of the last frame
+  ParticleSlots slots_;
+  std::shared_ptr<const std::vector<std::optional<Point>>> points_;  // of the last frame
 };
 
 }  // namespace vorocl::command
