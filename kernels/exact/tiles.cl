@@ -328,33 +328,22 @@ static inline bool is_labelled_as_whole(const scene_t* scene, box_t region) {
          has_few_places(scene, region);
 }
 
-#define SCENE_PARAMETERS                                                                                            \
-  global const uint *restrict starts, global const int2 *restrict list, global const uint *restrict ids,            \
-      global const int2 *restrict order, int has_images, int bits, int width, int height, int4 region,              \
-      global uint *restrict labels
-#define SCENE_OF_PARAMETERS \
-  {bins_of(bits, width, height), width, height, starts, list, ids, has_images ? order : 0, labels, region}
-
-// Labels the regions of few places.
-kernel void label_regions(SCENE_PARAMETERS) {
-  const int across = (width - 1) / REGION_SIDE + 1, item = (int)get_global_id(0);
-  const box_t box = region_of(item % across * REGION_SIDE, item / across * REGION_SIDE);
-  const scene_t scene = SCENE_OF_PARAMETERS;
+// Labels the regions of few places, or the tiles of all others: squares of so many tiles a side. (One kernel, launched
+// twice, as a driver compiles all that it calls for each kernel.)
+kernel void label_tiles(global const uint* restrict starts, global const int2* restrict list,
+                        global const uint* restrict ids, global const int2* restrict order, int has_images, int bits,
+                        int width, int height, int4 region, global uint* restrict labels, int tiles) {
+  const int side = tiles * TILE_SIDE, across = (width - 1) / side + 1, item = (int)get_global_id(0);
+  const box_t square = box_of(item % across * side, item / across * side, side);
+  const scene_t scene = {bins_of(bits, width, height), width, height, starts, list, ids, has_images ? order : 0,
+                         labels, region};
+  const bool is_region = tiles == TILES_OF_REGION;
+  if (square.top >= height || is_labelled_as_whole(&scene, region_of(square.left, square.top)) != is_region) return;
   lists_t lists;
-  if (box.top >= height || !is_labelled_as_whole(&scene, box) || label_box(&scene, box, &lists)) return;
-  for (int i = 0; i < TILES_OF_REGION * TILES_OF_REGION; ++i) {
-    label_tile(&scene, box_in(box, TILE_SIDE, i % TILES_OF_REGION, i / TILES_OF_REGION), &lists);
+  if (is_region && label_box(&scene, square, &lists)) return;
+  for (int i = 0; i < tiles * tiles; ++i) {
+    label_tile(&scene, box_in(square, TILE_SIDE, i % tiles, i / tiles), &lists);
   }
-}
-
-// Labels the tiles of all others.
-kernel void label_tiles(SCENE_PARAMETERS) {
-  const int across = (width - 1) / TILE_SIDE + 1, item = (int)get_global_id(0);
-  const box_t tile = box_of(item % across * TILE_SIDE, item / across * TILE_SIDE, TILE_SIDE);
-  const scene_t scene = SCENE_OF_PARAMETERS;
-  lists_t lists;
-  if (tile.top >= height || is_labelled_as_whole(&scene, region_of(tile.left, tile.top))) return;
-  label_tile(&scene, tile, &lists);
 }
 
 #endif

@@ -106,20 +106,19 @@ Report exact_diagram_of_plane(Filling& filling, DiagramState& state) {
       .over_items(items, given, ids, cl_int{have_ids}, count, chunk_size, bits, width, height, memory.starts,
                   memory.list, memory.ids);
   kernel("drop_repeats", 1).over_items(rows, memory.starts, bits, width, height, memory.list, memory.ids);
-  const auto label = [&, &of_ids = have_ids, &of_order = order, &of_region = region](Kernel& by,
-                                                                                     std::size_t work) {
+  const auto label = [&, &of_ids = have_ids, &of_order = order, &of_region = region](
+                         Kernel& by, std::size_t work, auto... more) {
     return by.over_items(work, memory.starts, memory.list, memory.ids, of_order, cl_int{of_ids}, bits, width,
-                         height, of_region, state.labels);
+                         height, of_region, state.labels, more...);
   };
-  const auto squares = [&](int side) { return along(width, side) * along(height, side); };
-  cl::Event last;
-  if (in_tiles) {
-    // Work-items that do much each: small groups spread them over the compute units.
-    label(kernel("label_regions", 1), squares(REGION_SIDE));
-    last = label(kernel("label_tiles", 8), squares(TILE_SIDE));
-  } else {
-    last = label(kernel("label_pixels", group), grid.pixels());
-  }
+  if (!in_tiles) return filling.commit(0, first, label(kernel("label_pixels", group), grid.pixels()));
+  // Work-items that do much each: small groups spread them over the compute units.
+  const auto label_squares = [&](cl_int tiles) {
+    const int side = tiles * TILE_SIDE;
+    return label(kernel("label_tiles", 1), along(width, side) * along(height, side), tiles);
+  };
+  label_squares(TILES_OF_REGION);
+  const cl::Event last = label_squares(1);
   return filling.commit(0, first, filling.seeds().are_points ? last : add_outer_seeds(filling, state, last));
 }
 

@@ -151,6 +151,12 @@ BOOST_AUTO_TEST_CASE(large_diagrams_against_a_tree) {
     check_against_tree({9000, 600}, random_pixels({9000, 600}, 30, 29), metric, true);
     check_against_tree({9000, 600}, random_pixels({500, 600}, 400, 30), metric);
   }
+  // Boxes in the middle have so many candidates, 36 of each 8 x 8, and so far away, that keys are relative to
+  // one of them: 5,793 squared and the six bits of a rank reach 2^31.
+  std::vector<Pixel> columns;
+  for (int y = 0; y < 64; ++y)
+    for (const int x : {0, 2 * 5793}) columns.push_back({x, y});
+  check_against_tree({2 * 5793 + 1, 64}, columns);
   const Grid torus(2048, 2048, Axes::xy);
   for (const std::size_t count : {3u, 400u, 20000u})
     check_against_tree(torus, random_pixels(torus, count, 28));
