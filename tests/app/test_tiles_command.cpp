@@ -155,12 +155,37 @@ BOOST_AUTO_TEST_CASE(tables_are_those_of_one_grid) {
                                     [](const auto& row) { return row.at("area") == "0"; }),
                      expected.end());
       for (auto& row : expected) {
-        for (const char* const column : {"x", "y", "largest_distance", "largest_distance_px"})
-          row.erase(column);
+        for (const char* const column : {"largest_distance", "largest_distance_px"}) row.erase(column);
       }
       BOOST_TEST((rows_of(folder / "tiles.csv") == expected));
     }
   }
+}
+
+BOOST_AUTO_TEST_CASE(tables_say_where_seeds_are_and_what_their_rows_have) {
+  const TemporaryFolder folder;
+  write_mask(folder);
+  write_npy_points(folder / "p.npy", {{1, 2}, {30, 4}, {-20, -5}, {55, 66}, {12.5, 9}});
+  const auto places_by = [&](const std::string& command) {
+    BOOST_TEST(run(folder, command + " --cells c.csv").exit_code == 0);
+    std::vector<std::string> places;
+    for (const auto& row : rows_of(folder / "c.csv")) {
+      if (row.at("area") != "0") places.push_back(row.at("id") + ": " + row.at("x") + ", " + row.at("y"));
+    }
+    return places;
+  };
+  for (const std::string seeds : {" --mask m.npy", " --points p.npy --size 80x60 --y-up"})
+    BOOST_TEST(places_by("tiles" + seeds) == places_by("cells" + seeds), boost::test_tools::per_element());
+
+  folder.file("k.csv", "id,name,x,y,area\n70,\"a, b\",1,2,5\n30,c,7,3,6\n");
+  const std::string tiles = "tiles --points k.csv --size 9x9 --bounds 0,0,9,9 --snap ",
+                    cells = "--cells k2.csv ";
+  BOOST_TEST(run(folder, tiles + cells + "--keep all").exit_code == 0);
+  BOOST_TEST(content_of(folder / "k2.csv").find(",touches_border,input_id,name,input_area\n0,1.5,2.5,") !=
+             std::string::npos);
+  BOOST_TEST(content_of(folder / "k2.csv").find(",1,70,\"a, b\",5\n1,7.5,3.5,") != std::string::npos);
+  refuses(folder, tiles + "--labels l.npy --keep name", usage, {"--keep", "--cells"});
+  refuses(folder, "tiles --random 5 --size 9x9 --keep name " + cells, usage, {"--keep", "--points"});
 }
 
 BOOST_AUTO_TEST_CASE(random_pixels_are_those_of_a_device) {

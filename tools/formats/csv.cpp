@@ -315,7 +315,7 @@ bool CsvReader::begin() {
     const auto index = first.has_names ? index_of(fields_, name) : std::nullopt;
     return index == at.x || index == at.y || (index && index == at.z) ? std::nullopt : index;
   };
-  at.id = named("id");
+  if (options_.reads_ids) at.id = named("id");
   const auto z = options_.columns || has_z_ ? std::nullopt : named("z");
   if (z && z != at.value)
     notes_.push_back(path_ + ": z is left out; volumes have it, with --size WxHxD, or " +

@@ -45,6 +45,7 @@ struct CsvOptions {
   std::string value_column = {};       ///< by name or index; "": none
   bool decimal_comma = false;          ///< of numbers; then fields have other separators
   std::vector<std::string> keep = {};  ///< columns whose text is kept; {"all"}: every one that has a name
+  bool reads_ids = true;               ///< of the column id
 };
 
 /// The columns, from 0.

@@ -73,7 +73,7 @@ void run_tiles(TilesOptions options) {
   const auto [seeds, facts] = read_seeds(options.input, mask.get(), tiling.window().grid(), interruption);
   writer.begin(facts.name);
   const TilesCourse course = make_tiles(options, device, *seeds, tiling, writer, interruption);
-  writer.finish(facts.units);
+  writer.finish(facts.units, [&, &known = facts] { return rows_of_seeds(options.input, known); });
   print_result(options, device, facts, tiling, course);
 }
 

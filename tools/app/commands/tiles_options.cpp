@@ -58,6 +58,7 @@ void check_options(const TilesOptions& options) {
     throw UsageError("nothing to write: give at least one of --labels, -o, --cells and --adjacency");
   }
   check_plane_options(options.input);
+  if (!options.input.seeds.keep.empty() && output.cells.empty()) throw UsageError("--keep is for --cells");
   if (options.crs && !(is_tiff_name(output.labels) && options.input.seeds.bounds)) {
     throw UsageError("--crs is for --labels FILE.tif, with --bounds in its coordinates");
   }
@@ -87,6 +88,7 @@ void add_tiles(CommandLine& line, const std::function<void(const TilesOptions&)>
            "Labels: a .npy file (uint32), a .zarr folder (Zarr version 2, a chunk per tile) or a .tif file "
            "(tiled BigTIFF; with --bounds a GeoTIFF)")
       .value_name("FILE");
+  add_keep_option(command, options->input.seeds);
   add_crs_option(command, options->crs, "a .tif file says");
   command
       .add("-o", options->output.picture,
@@ -95,7 +97,7 @@ void add_tiles(CommandLine& line, const std::function<void(const TilesOptions&)>
       .value_name("PICTURE");
   command
       .add("--cells", options->output.cells,
-           "A .csv file with one row per cell that has pixels: its area, centroid, extent, perimeter, "
+           "A .csv file with one row per cell that has pixels: its seed, area, centroid, extent, perimeter, "
            "neighbours")
       .value_name("FILE");
   command

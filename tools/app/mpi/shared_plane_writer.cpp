@@ -160,8 +160,8 @@ void SharedPlaneWriter::end() {
   }
 }
 
-void SharedPlaneWriter::finish(const Units& units) {
-  if (rank_ == 0) writer_->finish(units);
+void SharedPlaneWriter::finish(const Units& units, const std::function<PlaneRows()>& seeds) {
+  if (rank_ == 0) writer_->finish(units, seeds);
   MPI_Barrier(communicator_);
 }
 

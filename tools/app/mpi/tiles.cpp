@@ -156,7 +156,7 @@ void run(const TilesOptions& given) {
   seeds.share();
   writer.begin(facts.name);
   const TilesCourse course = make_tiles(options, ranks, device, seeds, tiling, writer, interruption);
-  writer.finish(facts.units);
+  writer.finish(facts.units, [&] { return rows_of_seeds(options.input, facts); });
   if (ranks.rank == 0) print_result(options, device, facts, tiling, course);
 }
 

@@ -3,10 +3,12 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
 
+#include "app/sources/plane_input.hpp"
 #include "app/sources/view.hpp"
 #include "formats/output_file.hpp"
 #include "formats/planes/plane_file.hpp"
@@ -45,7 +47,7 @@ class PlaneTables {
   std::size_t sync();
 
   /// Writes the tables. Throws Error if the cells' areas do not add up to the pixels.
-  void finish(const Units& units);
+  void finish(const Units& units, const std::function<PlaneRows()>& seeds);
 
  private:
   void read_sums(const std::string& path, std::size_t bytes);

@@ -51,10 +51,13 @@ class SharesByCell {
 
 /// Throws Error, and writes nothing, if the cells are not all that the plane's `pixels` make.
 void write_cells(const OutputFile& file, const PlaneCells& cells, const std::vector<PlaneCellPair>& pairs,
-                 const Units& units, std::uint64_t pixels) {
+                 const Units& units, const PlaneRows& seeds, std::uint64_t pixels) {
   GrowingFile table(file);
-  table << units.header({"id", "area", "centroid_x", "centroid_y", "left", "top", "right", "bottom",
-                         "perimeter", "neighbours", "touches_border"});
+  CsvFields columns = {"id",  "x",     "y",      "area",      "centroid_x", "centroid_y",    "left",
+                       "top", "right", "bottom", "perimeter", "neighbours", "touches_border"};
+  std::string header = units.header(columns);
+  if (!seeds.names.empty()) header.insert(header.size() - 1, ',' + to_csv(other_names(seeds.names, columns)));
+  table << header;
   SharesByCell shares_by_cell(pairs);
   std::uint64_t summed = 0;
   for (std::uint64_t id = 0; id < cells.size(); ++id) {
@@ -65,10 +68,13 @@ void write_cells(const OutputFile& file, const PlaneCells& cells, const std::vec
     const Point centroid = units.position(cell.centroid);
     const Extent extent = units.extent({static_cast<double>(cell.left), static_cast<double>(cell.top),
                                         static_cast<double>(cell.right), static_cast<double>(cell.bottom)});
-    table << fmt::format("{},{},{},{},{},{},{},{},{},{},{}\n", id, units.area(static_cast<double>(cell.area)),
-                         centroid.x, centroid.y, extent.left, extent.top, extent.right, extent.bottom,
+    const auto [place, kept] = seeds.next(id);
+    const Point seed = units.position(place);
+    table << fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{}{}{}\n", id, seed.x, seed.y,
+                         units.area(static_cast<double>(cell.area)), centroid.x, centroid.y, extent.left,
+                         extent.top, extent.right, extent.bottom,
                          units.length(static_cast<double>(shares.perimeter)), shares.neighbours,
-                         cell.touches_border ? 1 : 0);
+                         cell.touches_border ? 1 : 0, kept.empty() ? "" : ",", to_csv(kept));
   }
   if (summed != pixels && summed > 0) {  // without any seed no pixel has a cell
     throw Error(
@@ -144,11 +150,11 @@ std::size_t PlaneTables::sync() {
   return sums_->sync();
 }
 
-void PlaneTables::finish(const Units& units) {
+void PlaneTables::finish(const Units& units, const std::function<PlaneRows()>& seeds) {
   if (!is_asked_for() || is_finished_) return;
   cells_.add(recent_.take());
   const std::vector<PlaneCellPair> pairs = cells_.pairs();
-  if (cells_file_) write_cells(*cells_file_, cells_, pairs, units, pixels_);
+  if (cells_file_) write_cells(*cells_file_, cells_, pairs, units, seeds(), pixels_);
   if (adjacency_file_) write_pairs(*adjacency_file_, pairs, units);
   if (sums_) unlink(part_path().c_str());
 }

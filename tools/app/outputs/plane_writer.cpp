@@ -121,11 +121,11 @@ std::string PlaneWriter::kept() const {
                      complete_, tiling_.count(), fmt::join(part_paths(), ", "), journal_->path());
 }
 
-void PlaneWriter::finish(const Units& units) {
+void PlaneWriter::finish(const Units& units, const std::function<PlaneRows()>& seeds) {
   checkpoint();
   if (journal_) journal_->finish();
   for (const auto& file : files_) file->finish();
-  tables_.finish(units);
+  tables_.finish(units, seeds);
   if (journal_) journal_->remove();
 }
 

@@ -72,7 +72,7 @@ class PlaneWriter {
   std::string kept() const;
 
   /// Gives the files their names.
-  void finish(const Units& units);
+  void finish(const Units& units, const std::function<PlaneRows()>& seeds);
 
  private:
   /// The outputs' paths while they grow.

@@ -12,6 +12,7 @@
 #include "app/sources/seed_input.hpp"
 #include "app/terminal/console.hpp"
 #include "formats/files.hpp"
+#include "formats/npy.hpp"
 #include "formats/point_files.hpp"
 #include "formats/values.hpp"
 
@@ -90,15 +91,18 @@ PlaneFacts map_points(const SeedOptions& options, const Grid& plane, const Surve
   reading.reserve(survey.points);
   SeedsHash hash;
   std::uint64_t points_outside = 0;
-  const auto place_of = [snap = options.snapping()](const Axis& axis, double at) {
-    return snap == Snap::none ? axis.rounded_position(at) : axis.pixel(at) + 0.5;
+  const auto place_of = [data, snap = options.snapping()](const Point& point) {
+    const auto along = [snap](const Axis& axis, double at) {
+      return snap == Snap::none ? axis.rounded_position(at) : axis.pixel(at) + 0.5;
+    };
+    return Point{along(data.x(), point.x), along(data.y(), point.y)};
   };
   std::vector<Point> places;
   const auto add = [&](std::uint64_t first, const std::vector<Point>& block) {
     check_stop(reading.stops);
     places.clear();
     for (const Point& point : block) {
-      const Point place = {place_of(data.x(), point.x), place_of(data.y(), point.y)};
+      const Point place = place_of(point);
       const bool inside = place.x >= 0 && place.x < static_cast<double>(plane.width()) && place.y >= 0 &&
                           place.y < static_cast<double>(plane.height());
       require(outside == Outside::count || (inside && data.x().covers(point.x) && data.y().covers(point.y)),
@@ -124,7 +128,7 @@ PlaneFacts map_points(const SeedOptions& options, const Grid& plane, const Surve
   note_outside(reading.sum(points_outside), survey.points, bounds);
   const Units units =
       in_pixels(options) ? Units() : Units({data.x()}, {data.y()}, has_square_pixels(bounds, plane));
-  return {survey.points, units, hash.name(survey.points, reading)};
+  return {survey.points, units, hash.name(survey.points, reading), place_of};
 }
 
 PlaneFacts read_points(const SeedOptions& options, const Grid& plane, const PlaneReading& reading) {
@@ -194,6 +198,57 @@ PlaneFacts read_plane_seeds(const PlaneInputOptions& options, const PlaneReading
   const SeedOptions& seeds = options.seeds;
   return seeds.points.empty() ? make_random(seeds, options.plane(), reading)
                               : read_points(seeds, options.plane(), reading);
+}
+
+PlaneRows rows_of_seeds(const PlaneInputOptions& options, const PlaneFacts& facts) {
+  const SeedOptions& seeds = options.seeds;
+  const auto width = static_cast<std::size_t>(options.plane().width());
+  if (seeds.random > 0) {
+    return {{}, [plane = options.plane(), seed = seeds.rng_seed](std::uint64_t id) {
+              return std::pair(random_pixel(plane, static_cast<std::uint32_t>(id), seed), CsvFields());
+            }};
+  }
+  if (!seeds.mask.empty()) {
+    auto rows = std::make_shared<MaskRows>(seeds.mask, seeds.threshold);
+    return {{},
+            [=, x = width, y = 0.0, seen = std::uint64_t{0},
+             pixels = std::vector<std::uint8_t>()](std::uint64_t id) mutable {
+              for (; seen <= id; ++x) {
+                if (x >= width) {
+                  pixels.clear();
+                  rows->next(pixels);
+                  ++y;
+                  x = 0;
+                }
+                seen += pixels[x] != 0 ? 1 : 0;
+              }
+              return std::pair(Point{static_cast<double>(x) - 0.5, y - 0.5}, CsvFields());
+            }};
+  }
+  if (extension_of(seeds.points) == ".npy") {
+    auto points = std::make_shared<NpyPoints>(seeds.points);
+    return {{},
+            [=, place = facts.place, first = std::uint64_t{1},
+             block = std::vector<Point>()](std::uint64_t id) mutable {
+              if (id - first >= block.size()) {
+                first = id;
+                block = points->read(
+                    id, static_cast<std::size_t>(std::min<std::uint64_t>(block_points, points->size() - id)));
+              }
+              return std::pair(place(block[id - first]), CsvFields());
+            }};
+  }
+  CsvOptions csv = seeds.csv();
+  csv.reads_ids = false;
+  auto reader = std::make_shared<CsvReader>(seeds.points, csv);
+  const auto advance = [reader, file = seeds.points] {
+    if (!reader->next()) throw Error(file + " has changed while it was read");
+  };
+  advance();
+  return {reader->kept_names(), [=, place = facts.place, at = std::uint64_t{0}](std::uint64_t id) mutable {
+            for (; at < id; ++at) advance();
+            return std::pair(place(reader->point()), reader->kept());
+          }};
 }
 
 PlaneFacts read_plane_mask(const std::string& path, MaskRows& rows, const std::function<bool()>& stops,

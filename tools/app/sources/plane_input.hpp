@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "app/sources/seed_input.hpp"
@@ -55,7 +56,19 @@ struct PlaneFacts {
   std::uint64_t seeds = 0;
   Units units;
   std::string name;  ///< which tells them from others: how many they are, and a hash of their places
+  /// Where a point of the file lies in the plane, in pixels.
+  std::function<Point(const Point&)> place = [](const Point& point) { return point; };
 };
+
+/// What tables of cells have of seeds besides their cells.
+struct PlaneRows {
+  CsvFields names;  ///< of the kept columns
+  /// The seed's place, in pixels, and those columns. Ids come in ascending order.
+  std::function<std::pair<Point, CsvFields>(std::uint64_t id)> next;
+};
+
+/// Opens the seeds' file once more, or makes random ones again. Throws Error if that fails.
+PlaneRows rows_of_seeds(const PlaneInputOptions& options, const PlaneFacts& facts);
 
 /// Reads the seeds, or makes them, in blocks. Throws Error if it is told to stop, and if a file is bad or
 /// changes, which names the first point that cannot be a seed; warns on standard error as read_input().
