@@ -18,9 +18,16 @@ namespace vorocl {
 
 struct ExactCellsState;
 
+struct ExactCellsOptions {
+  /// By seed, in the units of the data squared; none: all have the same. Cells are those of the power
+  /// diagram (Laguerre, radical): a place belongs to the seed of the least |place - point|^2 - weight, so
+  /// spheres have their squared radii as weights. Only differences count. A seed may lie outside its cell.
+  std::vector<double> weights = {};
+};
+
 /// What exact_cells() knows of a cell, in the units of the data. An empty cell has the area 0 and a centroid
-/// of NaNs: that of an absent seed, of a seed that lies where one with a lower id does, and of one outside
-/// the rectangle whose cell does not reach into it.
+/// of NaNs: that of an absent seed, of a seed that lies where one with a lower id does, of one outside the
+/// rectangle whose cell does not reach into it, and of one whose weight is too small beside those around it.
 ///
 /// A measure has one name in planes and volumes: the area of a volume's cell is its volume, its perimeter its
 /// surface, and its edges are its faces; the rectangle is the box.
@@ -164,6 +171,9 @@ class VOROCL_API ExactCellsResult {
 /// Of a grid that is tilted (Grid::tilted()) the cells are those of what repeats so, and points are rounded
 /// to 2^-28 of the longer side.
 ///
+/// Weights are rounded to steps squared, or to 2^-53 of how far the greatest lies above them. Of weighted
+/// points at one place the one with the greatest weight has the cell.
+///
 /// Each cell starts as the rectangle and is cut by bisectors, with the seeds that are near in a tree first,
 /// until no seed is nearer to one of its vertices than its own: the security radius of Ray, Sokolov, Lefebvre
 /// and Levy ("Meshless Voronoi on the GPU", 2018), vertex by vertex. Cost: the host sorts the points, in
@@ -171,8 +181,10 @@ class VOROCL_API ExactCellsResult {
 /// seed, and 116 more where polygons are asked for; in a volume 380, and 200 more where faces are.
 ///
 /// Enqueues and returns, after a wait where only the device has the points. Throws Error if the device has no
-/// doubles (cl_khr_fp64) or too little memory, if the rectangle has no extent along an axis, or if the grid
-/// has an axis that is spaced.
-VOROCL_API Report exact_cells(const Seeds& seeds, ExactCellsResult& result);
+/// doubles (cl_khr_fp64) or too little memory, if the rectangle has no extent along an axis, if the grid has
+/// an axis that is spaced, or if there are not as many weights as seeds, or one of a seed that is there is
+/// not finite.
+VOROCL_API Report exact_cells(const Seeds& seeds, ExactCellsResult& result,
+                              const ExactCellsOptions& options = {});
 
 }  // namespace vorocl

@@ -638,6 +638,10 @@ VOROCL_API void vorocl_exact_cells_free(vorocl_exact_cells* cells);
 /// Enqueues and returns. VOROCL_DEVICE_ERROR if the device has no doubles.
 VOROCL_API vorocl_status vorocl_exact_cells_cut(vorocl_exact_cells* cells, const vorocl_seeds* seeds);
 
+/// The same of weighted seeds, which have one weight each: see vorocl::ExactCellsOptions.
+VOROCL_API vorocl_status vorocl_exact_cells_cut_weighted(vorocl_exact_cells* cells, const vorocl_seeds* seeds,
+                                                         const double* weights, size_t count);
+
 /// The cells, one per seed; 0 if it is empty.
 VOROCL_API vorocl_status vorocl_exact_cells_count(const vorocl_exact_cells* cells, size_t* count);
 

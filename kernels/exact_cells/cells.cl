@@ -5,8 +5,8 @@
 
 #define ROOM 24  // cells of random points have 6 edges in the mean, and one in 10^10 as many as 20
 
-// A work-item cuts the cells of so many sites of a leaf: all of them one after the other, in the same memory, with one
-// search of the leaves around; or one, where a device needs many items.
+// A work-item cuts the cells of so many sites of a leaf: all of them one after the other, in the same memory,
+// with one search of the leaves around; or one, where a device needs many items.
 kernel __attribute__((vec_type_hint(float8))) void cut_cells(SITE_PARAMETERS, MEASURE_PARAMETERS, uint of_item) {
   const uint first = (uint)get_global_id(0) * of_item;
   if (first >= count) return;
@@ -21,11 +21,12 @@ kernel __attribute__((vec_type_hint(float8))) void cut_cells(SITE_PARAMETERS, ME
 static inline line_t found_line(const tree_t* tree, uint2 edge, int2 at, uint site) {
   const int image = as_int(edge.s1);
   if (image < FIRST_LINES + 4) return first_line_of(tree, image - FIRST_LINES, at, site);
-  return line_towards(site_at(tree, edge.s0) - seen_from(tree, at, image), edge.s0, image);
+  return line_towards(tree, lag_of(tree->lags, site), site_at(tree, edge.s0) - seen_from(tree, at, image), edge.s0,
+                      image);
 }
 
-// Puts the edges of each cell where they belong, by the caller's ids: the cells behind them, and where they begin, in
-// half steps from the site. And says which site that is.
+// Puts the edges of each cell where they belong, by the caller's ids: the cells behind them, and where they
+// begin, in half steps from the site. And says which site that is.
 kernel void place_edges(SITE_PARAMETERS, global const uint* restrict ids, global const uint* restrict begins,
                         global const uint2* restrict found, global const uint* restrict offsets,
                         global uint* restrict cells, global double2* restrict vertices,
@@ -46,8 +47,8 @@ kernel void place_edges(SITE_PARAMETERS, global const uint* restrict ids, global
   }
 }
 
-// Measures the edges, and puts their vertices into the units of the data. The lengths lie where found edges did. In the
-// order of cells, so that memory is read and written as it lies.
+// Measures the edges, and puts their vertices into the units of the data. The lengths lie where found edges
+// did. In the order of cells, so that memory is read and written as it lies.
 kernel void measure_edges(SITE_PARAMETERS, uint cells, global const uint* restrict sites_of_cells, double4 origin,
                           double step, global const uint* restrict offsets, global double2* restrict vertices,
                           global double* restrict lengths) {

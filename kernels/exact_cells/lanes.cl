@@ -38,6 +38,43 @@ static inline uint least_of(uint8 numbers) {
 
 static inline uint8 without(uint8 numbers, uint one) { return numbers | as_uint8(numbers == one); }
 
+// --- weights ---
+//
+// A place belongs to the site of the least |place - site|^2 - weight. Sites have lags: the greatest weight
+// less their own, in steps squared; boxes have the least of theirs. Without weights there are no lags.
+
+static inline double lag_of(global const double* lags, uint site) { return lags != 0 ? lags[site] : 0; }
+
+// By how much the weights of eight sites or boxes are greater than that of a site with this lag.
+static inline float8 leads_of(global const double* lags, size_t group, double lag) {
+  return lags != 0 ? convert_float8(lag - vload8(group, lags)) : 0.0f;
+}
+
+// The squared distances of bisectors, in half steps, from a site that others are at these squared distances
+// from, in steps: (distance - lead / distance)^2, or 0 where the site is beyond. Of others that are at least
+// so far it is the least.
+static inline float8 bisectors_at(float8 distances, float8 leads) {
+  const float8 at = fmax(fmax(distances, fabs(leads)), 1e-30f);
+  const float8 ahead = fmax(at - leads - 4e-6f * at, 0.0f);  // floats err by less
+  return ahead * (ahead / at);
+}
+
+// With what floats may err by, where they are added to a squared distance.
+static inline float8 with_margin(float8 leads) { return leads + 1e-5f * fabs(leads); }
+
+static inline float least_of_floats(float8 numbers) {
+  const float4 of_four = fmin(numbers.lo, numbers.hi);
+  const float2 of_two = fmin(of_four.lo, of_four.hi);
+  return fmin(of_two.s0, of_two.s1);
+}
+
+// The greatest lag of the sites of a leaf.
+static inline double most_lag(global const double* lags, uint leaf, uint count) {
+  double most = 0;
+  for (uint site = leaf * FAN; site < min(leaf * FAN + FAN, count); ++site) most = fmax(most, lag_of(lags, site));
+  return most;
+}
+
 // Those of eight of which there are so many.
 static inline int8 first_of(uint many) { return (int8)(0, 1, 2, 3, 4, 5, 6, 7) < (int)min(many, (uint)FAN); }
 

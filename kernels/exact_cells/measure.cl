@@ -18,7 +18,8 @@ static inline int first_edge(const polygon_t* polygon) {
   return lowest + 1 < polygon->size ? lowest + 1 : 0;
 }
 
-// Sums are taken in half steps from the site, where they lose least.
+// Sums are taken in half steps from the site, or with weights, which may put a cell far from its site, from a
+// vertex: where they lose least.
 static inline void measure_cell(const tree_t* tree, const near_t* near, MEASURE_PARAMETERS, uint site,
                                 POLYGON_SPACE double* memory, int room) {
   const int2 at = site_at(tree, site);
@@ -40,8 +41,10 @@ static inline void measure_cell(const tree_t* tree, const near_t* near, MEASURE_
   int k = first_edge(&polygon);
   const int before = (k > 0 ? k : polygon.size) - 1;
   double2 from = (double2)(polygon.x[before], polygon.y[before]);
+  const double2 base = tree->lags != 0 ? from : 0;
+  from -= base;
   for (uint i = 0; i < edge_count; ++i) {
-    const double2 to = (double2)(polygon.x[k], polygon.y[k]), way = to - from;
+    const double2 to = (double2)(polygon.x[k], polygon.y[k]) - base, way = to - from;
     const double part = from.s0 * to.s1 - to.s0 * from.s1;
     area += part;
     moment += part * (from + to);
@@ -55,7 +58,7 @@ static inline void measure_cell(const tree_t* tree, const near_t* near, MEASURE_
   flags[id] = (uchar)((touching > 0 ? TOUCHES_BORDER : 0u) | CERTIFIED);
   areas[id] = area / 8 * step * step;
   perimeters[id] = perimeter / 2 * step;
-  vstore2(origin.xy + (convert_double2(at) + moment / (3 * area) / 2) * step, id, centroids);
+  vstore2(origin.xy + (convert_double2(at) + (base + moment / (3 * area)) / 2) * step, id, centroids);
 }
 
 #endif

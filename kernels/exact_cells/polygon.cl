@@ -1,19 +1,22 @@
-// A cell as a convex polygon, cut by one line after another. All is whole numbers: positions are in steps of the grid
-// that the host rounds points to, at most 2^30 along a side, or 2^29 if the box is tilted. Seen from the site, in half
-// steps, the bisector of a site that is (a, b) steps away is the line a x + b y = c with c = a^2 + b^2. So are the
-// sides of the box. A cell is where a x + b y <= c for all its lines.
+// A cell as a convex polygon, cut by one line after another. All is whole numbers: positions are in steps of
+// the grid that the host rounds points to, at most 2^30 along a side, or 2^29 if the box is tilted. Seen from
+// the site, in half steps, the bisector of a site that is (a, b) steps away is the line a x + b y = c with c
+// = a^2 + b^2. So are the sides of the box. A cell is where a x + b y <= c for all its lines.
 //
-// A vertex is where two lines cross. Whether a third line cuts it off is the sign of a determinant, which is decided in
-// doubles where their error leaves no doubt, else in 128 bits. To touch is not to cut: so no edge has the length 0.
+// A vertex is where two lines cross. Whether a third line cuts it off is the sign of a determinant, which is
+// decided in doubles where their error leaves no doubt, else in 128 bits. To touch is not to cut: so no edge
+// has the length 0.
 //
-// How large the numbers are: a site that may cut is at most R = 2^30.5 steps away, along the diagonal of the box or of
-// half a period each way. |a|, |b| and the c of a side of the box are less than 2^31.5, c = a^2 + b^2 is at most 2^61,
-// and of two lines a b' - a' b is at most |(a, b)| |(a', b')| <= 2^61. A determinant has three products of these two:
-// less than 2^124. (The margins of the search add less than a thousandth.)
+// How large the numbers are: a site that may cut is at most R = 2^30.5 steps away, along the diagonal of the
+// box or of half a period each way. |a|, |b| and the c of a side of the box are less than 2^31.5, a^2 + b^2
+// is at most 2^61, and of two lines a b' - a' b is at most |(a, b)| |(a', b')| <= 2^61. A determinant has
+// three products of this and a c: less than 2^124. With weights c = a^2 + b^2 + the other's lag - the own one
+// (see lanes.cl), and a lag is at most 2^62, beyond which a cell is empty: |c| is at most 2^62.6, and a
+// determinant less than 2^126. (The margins of the search add less than a thousandth.)
 //
-// In a tilted box cells begin with the bisectors of the images at +-u and +-v, two vectors that span the lattice, of
-// which no sum is shorter: 2 |u.v| <= |u|^2 <= |v|^2. Such a vertex is at most |v| away, and |v| is at most sqrt(5) / 2
-// of the longer side: so R is at most 2^30.2.
+// In a tilted box cells begin with the bisectors of the images at +-u and +-v, two vectors that span the
+// lattice, of which no sum is shorter: 2 |u.v| <= |u|^2 <= |v|^2. Such a vertex is at most |v| away, and |v|
+// is at most sqrt(5) / 2 of the longer side: so R is at most 2^30.2.
 
 #ifndef VOROCL_EXACT_CELLS_POLYGON
 #define VOROCL_EXACT_CELLS_POLYGON
@@ -31,8 +34,8 @@
 // Lists of a polygon with room for so many edges, a multiple of LANES, take so many doubles.
 #define POLYGON_MEMORY(room) (7 * ((room) + LANES))
 
-// A line a x + b y = c, with the site behind it. In a periodic box `image` says which of its images (see search.cl), or
-// which of the lines that the cell began with this is.
+// A line a x + b y = c, with the site behind it. In a periodic box `image` says which of its images (see
+// search.cl), or which of the lines that the cell began with this is.
 typedef struct {
   long c;
   int a, b;
@@ -40,8 +43,8 @@ typedef struct {
   int image;
 } line_t;
 
-// A ring of edges, counter-clockwise where y points up, as lists. Vertex k is where edge k ends, and edge k + 1 begins.
-// Behind the last one come vertices that are the site itself, which no line cuts off.
+// A ring of edges, counter-clockwise where y points up, as lists. Vertex k is where edge k ends, and edge k +
+// 1 begins. Behind the last one come vertices that are the site itself, which do not count.
 typedef struct {
   POLYGON_SPACE double* x;  // vertices, in half steps
   POLYGON_SPACE double* y;
@@ -54,6 +57,7 @@ typedef struct {
   POLYGON_SPACE uint* cell;
   POLYGON_SPACE int* image;
   int room, size;  // in edges
+  double lag;      // of the site
   float reach;     // the largest; 0 if nothing is left to be cut
   bool is_full;
 } polygon_t;
@@ -144,8 +148,8 @@ static inline float greatest_of(float8 numbers) {
 // On which side of a line a vertex is, in whole numbers: 1 is beyond it, 0 on it.
 static inline int exact_side(const polygon_t* polygon, int k, line_t line) {
   const line_t p = line_of(polygon, k), q = line_of(polygon, k + 1 < polygon->size ? k + 1 : 0);
-  return -sign_of(sum(sum(product(p.c, cross_of(q, line)), product(q.c, cross_of(line, p))),
-                      product(line.c, cross_of(p, q))));
+  return -sign_of(
+      sum(sum(product(p.c, cross_of(q, line)), product(q.c, cross_of(line, p))), product(line.c, cross_of(p, q))));
 }
 
 static inline int bits_of_longs(long8 lanes) {
@@ -191,7 +195,8 @@ static inline void move_edges(polygon_t* polygon, int from, int to, int count) {
   }
 }
 
-// Sets how many edges there are. Behind the last one come vertices that are the site itself, as far as vectors reach.
+// Sets how many edges there are. Behind the last one come vertices that are the site itself, as far as
+// vectors reach.
 static inline void end_edges(polygon_t* polygon, int size) {
   polygon->size = size;
   vstore8((double8)0, 0, polygon->x + size);
@@ -199,29 +204,44 @@ static inline void end_edges(polygon_t* polygon, int size) {
   vstore8((float8)0, 0, polygon->reaches + size);
 }
 
+// Weights may put bisectors of several sites on one line. What lies behind it is the farthest one's.
+static inline void take_edge(polygon_t* polygon, line_t line) {
+  for (int k = 0; k < polygon->size; ++k) {
+    const line_t edge = line_of(polygon, k);
+    const bool is_longer = abs(line.a) > abs(edge.a) || abs(line.b) > abs(edge.b);
+    const bool is_parallel = cross_of(edge, line) == 0 && (long)edge.a * line.a + (long)edge.b * line.b > 0;
+    if (edge.cell == NO_CELL || !is_longer || !is_parallel) continue;
+    const bool is_steep = edge.a != 0;
+    const long of_edge = is_steep ? edge.a : edge.b, of_line = is_steep ? line.a : line.b;
+    if (sign_of(sum(product(edge.c, of_line), product(line.c, -of_edge))) == 0) set_line(polygon, k, line);
+  }
+}
+
 // Cuts off what lies beyond a line.
 static inline void cut(polygon_t* polygon, line_t line) {
   const int size = polygon->size;
   float8 reaches = 0;  // of the vertices that are kept
-  int is_cut = 0, first_gone = size, last_gone = -1, first_kept = size, last_kept = -1;
+  int is_cut = 0, on = 0, first_gone = size, last_gone = -1, first_kept = size, last_kept = -1;
   for (int k = 0; k < size; k += LANES) {
     const int2 sides = beyond(polygon, k, line);
-    const int gone = sides.s1, kept = ~gone & ((1 << min(size - k, LANES)) - 1);
-    is_cut |= sides.s0;
+    const int there = (1 << min(size - k, LANES)) - 1, gone = sides.s1 & there, kept = ~sides.s1 & there;
+    is_cut |= sides.s0 & there;
+    on += (int)popcount((uint)(gone & ~sides.s0));
     first_gone = gone != 0 ? min(first_gone, k + lowest_bit(gone)) : first_gone;
     last_gone = gone != 0 ? k + highest_bit(gone) : last_gone;
     first_kept = kept != 0 ? min(first_kept, k + lowest_bit(kept)) : first_kept;
     last_kept = kept != 0 ? k + highest_bit(kept) : last_kept;
     reaches = max(reaches, select(vload8(0, polygon->reaches + k), (float8)0, lanes_of(gone)));
   }
+  if (is_cut == 0 && on > 1) take_edge(polygon, line);
   if (is_cut == 0) return;
   if (last_kept < 0) {
     polygon->size = 0;
     polygon->reach = 0;
     return;
   }
-  // From the first to the last vertex that goes. Those on the line go with them, and new ones take their places: one
-  // more edge, less the edges between two vertices that go.
+  // From the first to the last vertex that goes. Those on the line go with them, and new ones take their
+  // places: one more edge, less the edges between two vertices that go.
   const bool is_split = first_gone == 0 && last_gone == size - 1;  // by the end of the lists
   const int first = is_split ? last_kept + 1 : first_gone, last = is_split ? first_kept - 1 : last_gone;
   const int after = last + 1 < size ? last + 1 : 0;
@@ -251,9 +271,9 @@ static inline long square_of(int2 vector) { return (long)vector.s0 * vector.s0 +
 
 #define FIRST_LINES INT_MIN  // and the three that follow are the images of the lines that cells begin with
 
-// Line k of the four around a site, counter-clockwise from its lower side: `sides` says how far the left, lower, right
-// and upper sides of the box are. Where a vector of the lattice is given, u = lattice.s01 or v = lattice.s23, it is
-// the bisector with the site's own image there.
+// Line k of the four around a site, counter-clockwise from its lower side: `sides` says how far the left,
+// lower, right and upper sides of the box are. Where a vector of the lattice is given, u = lattice.s01 or v =
+// lattice.s23, it is the bisector with the site's own image there.
 static inline line_t first_line(int k, int4 sides, int4 lattice, uint site) {
   const bool is_level = (k & 1) == 0, is_lower = k == 0 || k == 3;
   const int2 vector = is_level ? lattice.s23 : lattice.s01;

@@ -1,8 +1,9 @@
-// The sites that may cut a cell, from a tree of boxes. The host has put the sites in Hilbert's order; each eight are a
-// leaf, and each eight boxes have one around them, up to one group of at most eight.
+// The sites that may cut a cell, from a tree of boxes. The host has put the sites in Hilbert's order; each
+// eight are a leaf, and each eight boxes have one around them, up to one group of at most eight.
 //
-// A site cuts a cell only if it is nearer to one of the cell's vertices than the cell's own site is. This is asked of
-// eight boxes, or eight sites, at once, in floats with a margin: what it lets through is decided in whole numbers.
+// A site cuts a cell only if it is nearer to one of the cell's vertices than the cell's own site is. This is
+// asked of eight boxes, or eight sites, at once, in floats with a margin: what it lets through is decided in
+// whole numbers. With weights a box counts as if all of its sites had the greatest one among them.
 
 #ifndef VOROCL_EXACT_CELLS_SEARCH
 #define VOROCL_EXACT_CELLS_SEARCH
@@ -10,18 +11,21 @@
 #include "exact_cells/polygon.cl"
 
 // Which sites there are: in the kernels' arguments, and as what functions take.
-#define SITE_PARAMETERS \
-  uint count, global const int *sites, global const int *boxes, \
-      global const uint *levels, int top, int4 rectangle, int4 periods, int4 lattice
-#define SITE_ARGUMENTS {count, sites, boxes, levels, top, rectangle, periods, lattice}
+#define SITE_PARAMETERS                                                                                               \
+  uint count, global const int *sites, global const int *boxes, global const uint *levels, global const double *lags, \
+      global const double *box_lags, int top, int4 rectangle, int4 periods, int4 lattice
+#define SITE_ARGUMENTS \
+  { count, sites, boxes, levels, lags, box_lags, top, rectangle, periods, lattice }
 
 typedef struct {
-  uint count;                 // of sites
-  global const int* sites;    // per leaf eight x and eight y, in steps
-  global const int* boxes;    // per group eight left sides, eight right ones, eight lower and eight upper ones
-  global const uint* levels;  // by level: its first group. Those of level 1 are boxes around leaves.
-  int top;                    // the last level
-  int4 rectangle;             // left, lower, right and upper sides
+  uint count;                     // of sites
+  global const int* sites;        // per leaf eight x and eight y, in steps
+  global const int* boxes;        // per group eight left sides, eight right ones, eight lower and eight upper ones
+  global const uint* levels;      // by level: its first group. Those of level 1 are boxes around leaves.
+  global const double* lags;      // per site, and null without weights
+  global const double* box_lags;  // per group eight
+  int top;                        // the last level
+  int4 rectangle;                 // left, lower, right and upper sides
   int4 periods;  // along x and y, 0 along an axis without; and how far the images above are shifted in x
   int4 lattice;  // two short vectors of that lattice, or zeros
 } tree_t;
@@ -33,8 +37,9 @@ static inline int2 site_at(const tree_t* tree, uint site) {
 
 // --- images ---
 
-// In row j of the lattice, which is j periods above, an image is i periods to the right of one in the rectangle.
-// Along x no image can cut that is more than a period away: the one a period nearer is nearer to the whole cell.
+// In row j of the lattice, which is j periods above, an image is i periods to the right of one in the
+// rectangle. Along x no image can cut that is more than a period away: the one a period nearer is nearer to
+// the whole cell.
 static inline int image_of(int i, int j) { return 4 * j + i + 1; }
 #define ITSELF 1  // image_of(0, 0)
 
@@ -50,8 +55,10 @@ static inline int2 seen_from(const tree_t* tree, int2 at, int image) {
   return (int2)((int)(x - (long)i * tree->periods.s0), (int)(at.s1 - (long)j * tree->periods.s1));
 }
 
-static inline line_t line_towards(int2 way, uint cell, int image) {
-  const line_t line = {square_of(way), way.s0, way.s1, cell, image};
+// The bisector of a site with this lag and another one that is so far away.
+static inline line_t line_towards(const tree_t* tree, double lag, int2 way, uint cell, int image) {
+  const long more = (long)lag_of(tree->lags, cell) - (long)lag;
+  const line_t line = {square_of(way) + more, way.s0, way.s1, cell, image};
   return line;
 }
 
@@ -60,6 +67,7 @@ static inline line_t first_line_of(const tree_t* tree, int k, int2 at, uint site
 }
 
 static inline void begin_polygon(polygon_t* polygon, const tree_t* tree, int2 at, uint site) {
+  polygon->lag = lag_of(tree->lags, site);
   polygon->is_full = false;
   polygon->reach = 0;
   end_edges(polygon, 4);
@@ -77,23 +85,30 @@ static inline void begin_polygon(polygon_t* polygon, const tree_t* tree, int2 at
 // Behind which nothing can cut.
 static inline uint end_of(const polygon_t* polygon) { return as_uint(4 * polygon->reach); }
 
-// Cuts the cell by the sites of a leaf, the nearest first. `from` is the cell's site as the image of the tree sees it.
+// The squared distances of bisectors with sites or boxes at these squared distances.
+static inline float8 bisectors_of(const tree_t* tree, float8 distances, float8 leads) {
+  return tree->lags != 0 ? bisectors_at(distances, leads) : distances;
+}
+
+// Cuts the cell by the sites of a leaf, the nearest first. `from` is the cell's site as the image of the tree
+// sees it.
 static inline void cut_by_leaf(polygon_t* polygon, const tree_t* tree, uint leaf, int2 from, int image) {
   const float8 x = convert_float8(vload8(2 * (size_t)leaf, tree->sites) - from.s0);
   const float8 y = convert_float8(vload8(2 * (size_t)leaf + 1, tree->sites) - from.s1);
-  const float8 distances = x * x + y * y;
+  const float8 distances = x * x + y * y, leads = leads_of(tree->lags, leaf, polygon->lag);
+  const float8 more = with_margin(leads);
   int8 may_cut = 0;
   for (int k = 0; k < polygon->size; ++k) {
     const float8 dx = x - polygon->rough_x[k], dy = y - polygon->rough_y[k];
-    may_cut |= dx * dx + dy * dy < polygon->reaches[k];
+    may_cut |= dx * dx + dy * dy < polygon->reaches[k] + more;
   }
   const uint first = leaf * FAN;
   may_cut &= first_of(tree->count - first) & (distances > 0);
-  uint8 order = order_of(distances, may_cut);
+  uint8 order = order_of(bisectors_of(tree, distances, leads), may_cut);
   for (uint next = least_of(order); next < end_of(polygon); next = least_of(order)) {
     const uint site = first + (next & (FAN - 1));
     order = without(order, next);
-    cut(polygon, line_towards(site_at(tree, site) - from, site, image));
+    cut(polygon, line_towards(tree, polygon->lag, site_at(tree, site) - from, site, image));
   }
 }
 
@@ -109,18 +124,19 @@ static inline boxes_t boxes_of_group(const tree_t* tree, int level, uint group) 
 }
 
 // Which of eight boxes, of those that count, may hold sites that cut.
-static inline uint8 order_of_boxes(const polygon_t* polygon, boxes_t boxes, int8 that_count, int2 from) {
+static inline uint8 order_of_boxes(const polygon_t* polygon, const tree_t* tree, boxes_t boxes, float8 leads,
+                                   int8 that_count, int2 from) {
   const float8 left = convert_float8(boxes.left - from.s0), right = convert_float8(boxes.right - from.s0),
                lower = convert_float8(boxes.lower - from.s1), upper = convert_float8(boxes.upper - from.s1);
   const float8 away_x = max(max(left, -right), 0.0f), away_y = max(max(lower, -upper), 0.0f);
-  const float8 distances = away_x * away_x + away_y * away_y;
+  const float8 distances = bisectors_of(tree, away_x * away_x + away_y * away_y, leads), more = with_margin(leads);
   const int8 is_near = (distances < 4 * polygon->reach) & that_count;
   if (bits_of_ints(is_near) == 0) return FAR;
   int8 may_cut = 0;
   for (int k = 0; k < polygon->size; ++k) {
     const float x = polygon->rough_x[k], y = polygon->rough_y[k];
     const float8 dx = max(max(left - x, x - right), 0.0f), dy = max(max(lower - y, y - upper), 0.0f);
-    may_cut |= dx * dx + dy * dy < polygon->reaches[k];
+    may_cut |= dx * dx + dy * dy < polygon->reaches[k] + more;
   }
   return order_of(distances, may_cut & is_near);
 }
@@ -130,7 +146,8 @@ static inline uint8 order_of_group(const polygon_t* polygon, const tree_t* tree,
                                    int2 from) {
   const int8 is_other = (int8)(0, 1, 2, 3, 4, 5, 6, 7) != (int)(own - group * FAN);
   const int8 that_count = are_there(tree->count, level, group) & is_other;
-  return order_of_boxes(polygon, boxes_of_group(tree, level, group), that_count, from);
+  const float8 leads = leads_of(tree->box_lags, tree->levels[level] + group, polygon->lag);
+  return order_of_boxes(polygon, tree, boxes_of_group(tree, level, group), leads, that_count, from);
 }
 
 // Cuts a cell by the sites in a group's boxes, the nearest box first, but not by those in the box `own`.
@@ -168,21 +185,31 @@ static inline void cut_by_image(polygon_t* polygon, const tree_t* tree, int2 at,
 
 #define MOST_NEAR 24  // of uniform points there are some 15
 
-// The leaves whose boxes are nearer to a leaf's own than that is long. Most of its cells need to look into no others.
+// The leaves whose boxes are nearer to a leaf's own than that is long. Most of its cells need to look into no
+// others.
 typedef struct {
   int left[MOST_NEAR], right[MOST_NEAR], lower[MOST_NEAR], upper[MOST_NEAR];
+  double lags[MOST_NEAR];
   uint leaves[MOST_NEAR];
   uint count;
-  float distance;  // squared, within which there are no others; 0 if there are too many
+  float distance;  // squared, within which there are no bisectors with others; 0 if there are too many leaves
 } near_t;
 
-// Which boxes of a group, as bits, are within a squared distance of a box, of which the left, right, lower and upper
-// sides are given.
-static inline int boxes_within(const tree_t* tree, int level, uint group, int4 box, float distance) {
+// Which boxes of a group, as bits, are within a squared distance of a box, of which the left, right, lower
+// and upper sides are given. `least` is that of bisectors of the others with sites of this lag.
+static inline int boxes_within(const tree_t* tree, int level, uint group, int4 box, float distance, double lag,
+                               float* least) {
   const boxes_t boxes = boxes_of_group(tree, level, group);
   const float8 away_x = max(convert_float8(max(boxes.left - box.s1, box.s0 - boxes.right)), 0.0f);
   const float8 away_y = max(convert_float8(max(boxes.lower - box.s3, box.s2 - boxes.upper)), 0.0f);
-  return bits_of_ints((away_x * away_x + away_y * away_y < distance) & are_there(tree->count, level, group));
+  const float8 distances = away_x * away_x + away_y * away_y;
+  const int8 there = are_there(tree->count, level, group), within = (distances < distance) & there;
+  if (tree->lags != 0) {
+    const float8 leads = leads_of(tree->box_lags, tree->levels[level] + group, lag);
+    const float8 others = select((float8)INFINITY, bisectors_at(distances, leads), there & ~within);
+    *least = fmin(*least, least_of_floats(others));
+  }
+  return bits_of_ints(within);
 }
 
 static inline int4 box_of_leaf(const tree_t* tree, uint leaf) {
@@ -192,14 +219,15 @@ static inline int4 box_of_leaf(const tree_t* tree, uint leaf) {
 
 static inline void find_near(near_t* near, const tree_t* tree, uint own) {
   const int4 box = box_of_leaf(tree, own);
-  const float length = convert_float(max(box.s1 - box.s0, box.s3 - box.s2));
+  const float length = convert_float(max(box.s1 - box.s0, box.s3 - box.s2)), distance = length * length;
+  const double lag = most_lag(tree->lags, own, tree->count);
   near->count = 0;
-  near->distance = length * length;
+  near->distance = distance;
   int within[MOST_LEVELS + 1];  // by level: the boxes that are still to be looked into
   uint firsts[MOST_LEVELS + 1];
   int level = tree->top;
   firsts[level] = 0;
-  within[level] = boxes_within(tree, level, 0, box, near->distance);
+  within[level] = boxes_within(tree, level, 0, box, distance, lag, &near->distance);
   while (level <= tree->top) {
     if (within[level] == 0) {
       ++level;
@@ -210,7 +238,7 @@ static inline void find_near(near_t* near, const tree_t* tree, uint own) {
     if (level > 1) {
       --level;
       firsts[level] = node * FAN;
-      within[level] = boxes_within(tree, level, node, box, near->distance);
+      within[level] = boxes_within(tree, level, node, box, distance, lag, &near->distance);
     } else if (node != own && near->count < MOST_NEAR) {
       const uint k = near->count++;
       const int4 found = box_of_leaf(tree, node);
@@ -218,6 +246,7 @@ static inline void find_near(near_t* near, const tree_t* tree, uint own) {
       near->right[k] = found.s1;
       near->lower[k] = found.s2;
       near->upper[k] = found.s3;
+      near->lags[k] = tree->lags != 0 ? tree->box_lags[(size_t)tree->levels[1] * FAN + node] : 0;
       near->leaves[k] = node;
     } else if (node != own) {
       near->distance = 0;
@@ -232,7 +261,8 @@ static inline void cut_by_near(polygon_t* polygon, const tree_t* tree, const nea
   for (uint first = 0; first < near->count; first += FAN) {
     const boxes_t boxes = {vload8(0, near->left + first), vload8(0, near->right + first),
                            vload8(0, near->lower + first), vload8(0, near->upper + first)};
-    orders[first / FAN] = order_of_boxes(polygon, boxes, first_of(near->count - first), at);
+    const float8 leads = convert_float8(polygon->lag - vload8(0, near->lags + first));
+    orders[first / FAN] = order_of_boxes(polygon, tree, boxes, leads, first_of(near->count - first), at);
   }
   while (true) {
     uint next = FAR, first = 0;
@@ -252,9 +282,9 @@ static inline void cut_by_near(polygon_t* polygon, const tree_t* tree, const nea
 // How far a coordinate is outside a stretch.
 static inline float outside(long at, int from, int to) { return convert_float(max(max(from - at, at - to), 0L)); }
 
-// Cuts a cell by all sites, and their images across the ends of periods: first by those of its own leaf and of the
-// leaves near it, then, if it reaches farther, by those that are next to its own in the tree. No row of images can cut
-// that is more than a period away, but where the box is tilted.
+// Cuts a cell by all sites, and their images across the ends of periods: first by those of its own leaf and
+// of the leaves near it, then, if it reaches farther, by those that are next to its own in the tree. No row
+// of images can cut that is more than a period away, but where the box is tilted.
 static inline void cut_by_all(polygon_t* polygon, const tree_t* tree, const near_t* near, uint site, int2 at) {
   cut_by_leaf(polygon, tree, site >> FAN_BITS, at, ITSELF);
   cut_by_near(polygon, tree, near, at);
@@ -272,7 +302,8 @@ static inline void cut_by_all(polygon_t* polygon, const tree_t* tree, const near
   for (int side = -1; side <= 1; side += 2) {
     for (int j = 1; j <= most_rows; ++j) {
       const float away = outside(at.s1 - (long)(side * j) * periods.s1, rectangle.s1, rectangle.s3);
-      if (away * away >= 4 * polygon->reach) break;
+      const float8 nearest = bisectors_of(tree, away * away, convert_float(polygon->lag));
+      if (nearest.s0 >= 4 * polygon->reach) break;
       for (int i = -most_x; i <= most_x; ++i) cut_by_image(polygon, tree, at, i, side * j);
     }
   }

@@ -1,4 +1,6 @@
 // Exact cells: what was cut of seeds, as arrays.
+#include <nanobind/stl/optional.h>
+
 #include <array>
 #include <functional>
 
@@ -97,13 +99,16 @@ void read_volume(const Device& device, const ExactCellsResult& result, bool with
   add<double>(arrays, "areas", std::move(found.areas));
 }
 
-nb::typed<nb::dict, nb::str, nb::any> cut(SeedsObject& seeds, bool with_polyhedra) {
+nb::typed<nb::dict, nb::str, nb::any> cut(SeedsObject& seeds, bool with_polyhedra,
+                                          const std::optional<Array<const double, nb::ndim<1>>>& weights) {
   Arrays arrays;
   {
     const nb::gil_scoped_release unlocked;
     const std::lock_guard<std::mutex> turn(seeds.mutex);
     ExactCellsResult result;
-    exact_cells(seeds.seeds, result);
+    ExactCellsOptions options;
+    if (weights) options.weights.assign(weights->data(), weights->data() + weights->size());
+    exact_cells(seeds.seeds, result, options);
     if (seeds.seeds.grid().is_volume()) {
       read_volume(seeds.seeds.device(), result, with_polyhedra, arrays);
     } else {
@@ -118,7 +123,7 @@ nb::typed<nb::dict, nb::str, nb::any> cut(SeedsObject& seeds, bool with_polyhedr
 }  // namespace
 
 void bind_exact_cells(nb::module_& module) {
-  module.def("exact_cells", cut, nb::arg("seeds"), nb::arg("with_polyhedra"));
+  module.def("exact_cells", cut, nb::arg("seeds"), nb::arg("with_polyhedra"), nb::arg("weights").none());
 }
 
 }  // namespace vorocl::python

@@ -255,3 +255,42 @@ def test_tables_of_volumes(places):
             call()
     with pytest.raises(vorocl.BadPoint):
         vorocl.exact_cells(places + (0, 0, 1), BOX)
+
+
+def test_weighted_cells_own_the_places_of_the_least_power(points, places):
+    """Against every place of a lattice: which of all images of all points has the least squared distance less its weight."""
+    for given, box, unit in [(points, BOUNDS, 8 / 400), (places, BOX, (8 / 600) ** (2 / 3))]:
+        dimensions = given.shape[1]
+        low, sides = np.array(box[:dimensions]), np.subtract(box[dimensions:], box[:dimensions])
+        weights = rng.uniform(0, 2 * unit, len(given))
+        weights[::100] = 8 * unit  # few heavy ones, beside which many are empty
+        found = vorocl.exact_cells(given, box, periodic=(True,) * dimensions, weights=weights)
+        sizes = found.cells["volume" if dimensions == 3 else "area"]
+        assert found.cells["certified"].all() and sizes.sum() == pytest.approx(8, rel=1e-13)
+        assert 0.1 < (sizes == 0).mean() < 0.9
+        assert np.isnan(found.cells["centroid_x"][sizes == 0]).all() and (found.cells["neighbours"][sizes == 0] == 0).all()
+        counts = 60 if dimensions == 3 else 400
+        lattice = np.stack(np.meshgrid(*[(np.arange(counts) + 0.5) / counts] * dimensions), -1).reshape(-1, dimensions)
+        owners = np.empty(len(lattice), int)
+        for begin in range(0, len(lattice), 20000):
+            ways = np.abs(low + sides * lattice[begin : begin + 20000, None] - given)
+            powers = (np.minimum(ways, sides - ways) ** 2).sum(-1) - weights
+            owners[begin : begin + 20000] = powers.argmin(1)
+        counted = np.bincount(owners, minlength=len(given)) * 8 / len(lattice)
+        surfaces = found.cells["surface" if dimensions == 3 else "perimeter"]
+        assert (counted[sizes == 0] == 0).all()
+        assert (np.abs(counted - sizes) <= surfaces * sides.max() / counts).all()
+        a, b = found.pairs["a"], found.pairs["b"]  # what touches is no empty cell
+        assert (sizes[a] > 0).all() and (sizes[b] > 0).all()
+
+
+@pytest.mark.parametrize(
+    "weights, message",
+    [(np.zeros(399), r"shape \(400,\)"), (["a"] * 400, "array of numbers"), ([np.inf] + [0] * 399, "seed 0 is inf")],
+)
+def test_bad_weights_are_refused(points, weights, message):
+    with pytest.raises(vorocl.BadArgument, match=message):
+        vorocl.exact_cells(points, BOUNDS, weights=weights)
+    points = points.copy()
+    points[0] = np.nan  # of a point that is not there they do not count
+    assert vorocl.exact_cells(points, BOUNDS, weights=[np.nan] + [1] * 399).cells["area"].sum() == pytest.approx(8)

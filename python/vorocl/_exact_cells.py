@@ -42,7 +42,8 @@ class ExactCells:
         of the rectangle); of a volume ``volume``, ``centroid_x``, ``centroid_y``, ``centroid_z``, ``surface``. Then
         ``neighbours`` (edges, or faces, that it shares with cells: the coordination number), ``touches_border``,
         ``certified`` (all decisions were certain). ``pandas.DataFrame(cells)`` makes a table of it. The cell of an absent
-        point, or of one that is not the first at its place, is empty: its area is 0, its centroid NaN.
+        point, of one that is not the first at its place, or with too small a weight is empty: its area is 0, its centroid
+        NaN.
     pairs : ndarray
         Structured, one row per edge, or face, between two cells, sorted: ``a``, ``b`` (rows of the points, a <= b), and of
         a plane ``length``, ``midpoint_x``, ``midpoint_y``; of a volume ``area``, and ``image_x``, ``image_y``,
@@ -202,6 +203,19 @@ class ExactCells:
         return frame
 
 
+def to_weights(weights: Optional[ArrayLike], count: int) -> Optional[NDArray[np.float64]]:
+    """One finite number per point."""
+    if weights is None:
+        return None
+    try:
+        array = np.ascontiguousarray(weights, dtype=np.float64)
+    except (TypeError, ValueError):
+        raise BadArgument(f"weights must be an array of numbers; this is {shown(weights)}") from None
+    if array.shape != (count,):
+        raise BadArgument(f"weights must have the shape ({count},), one per point; this array has the shape {array.shape}")
+    return array
+
+
 @with_parameters
 def exact_cells(
     points: ArrayLike,
@@ -210,6 +224,7 @@ def exact_cells(
     periodic: Periodic = (False, False),
     tilt: float = 0.0,
     outside: Outside = "count",
+    weights: Optional[ArrayLike] = None,
     polyhedra: bool = False,
     device: Optional[Device] = None,
 ) -> ExactCells:
@@ -235,6 +250,11 @@ def exact_cells(
     outside : {"count", "absent", "refuse"}, optional
         What becomes of points outside the bounds. "count": they have what of the rectangle is nearest to them; in a volume
         they are refused. "absent": they have no cell. "refuse": they are an error.
+    weights : array_like, optional
+        Shape (N,), in squared units of the data: cells are those of the power diagram (Laguerre, radical), in which a place
+        belongs to the point of the least squared distance less its weight. Of spheres give the squared radii. Cells may be
+        empty, and a point may lie outside its cell. Weights are rounded to the square of what points are rounded to, or to
+        2**-53 of how far the greatest lies above them.
     polyhedra : bool, optional
         Of a volume: whether vertices and faces are made too. Cells are cut twice then.
     <device>
@@ -265,6 +285,11 @@ def exact_cells(
     [(8.0, 24.0, 2), (8.0, 24.0, 2)]
     >>> found.pairs.tolist()
     [(0, 1, 4.0, -1, 0, 0), (0, 1, 4.0, 0, 0, 0)]
+
+    Two circles, of the radii 1 and 0.5, meet where tangents to both are as long:
+
+    >>> vorocl.exact_cells([(1, 1), (3, 1)], (0, 0, 4, 2), weights=[1, 0.25]).cells["area"]
+    array([4.375, 3.625])
     """
     if bounds is None:
         raise BadArgument(
@@ -281,4 +306,4 @@ def exact_cells(
     grid = Grid((2, 1, 1) if dimensions == 3 else (1, 1), bounds, periodic, tilt)._of(outside)
     array = to_points(points, dimensions)
     seeds = _vorocl.Seeds(to_device(device)._device, grid, array, to_outside(outside), True)
-    return ExactCells(array, _vorocl.exact_cells(seeds, with_polyhedra))
+    return ExactCells(array, _vorocl.exact_cells(seeds, with_polyhedra, to_weights(weights, len(array))))

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <limits>
 #include <tuple>
 #include <variant>
@@ -72,9 +73,9 @@ struct ExactCellsState {
   cl_double4 origin = {};
   KernelSet kernels;
 
-  cl::Buffer places, boxes, levels, ids;
+  cl::Buffer places, boxes, levels, ids, lags, box_lags;
   Upload<cl_int> upload_of_places, upload_of_boxes;
-  Upload<cl_double> upload_of_volume_places, upload_of_volume_boxes;
+  Upload<cl_double> upload_of_volume_places, upload_of_volume_boxes, upload_of_lags, upload_of_box_lags;
   Upload<cl_uint> upload_of_levels, upload_of_ids;
 
   cl::Buffer areas, centroids, perimeters, neighbours, flags;  // by cell
@@ -124,8 +125,8 @@ struct ExactCellsState {
         [&](const auto& of) {
           const auto box = of.box();
           return kernel(file, name)
-              .over_items(items, site_count, places, boxes, levels, top_level, box[0], box[1], box[2],
-                          more...);
+              .over_items(items, site_count, places, boxes, levels, lags, box_lags, top_level, box[0], box[1],
+                          box[2], more...);
         },
         sites);
   }
@@ -168,6 +169,15 @@ std::pair<cl::Event, cl::Event> ExactCellsState::start(const Device& on, SitesOf
   room(levels, of.levels.size(), sizeof(cl_uint));
   room(ids, of.ids.size(), sizeof(cl_uint));
   upload_tree(of);
+  const auto upload_lags = [&](cl::Buffer& buffer, Upload<cl_double>& upload,
+                               std::vector<cl_double>&& values) {
+    if (values.empty()) buffer = cl::Buffer();
+    if (values.empty()) return;
+    room(buffer, values.size(), sizeof(cl_double));
+    upload.start(on, buffer, std::move(values));
+  };
+  upload_lags(lags, upload_of_lags, std::move(of.lags));
+  upload_lags(box_lags, upload_of_box_lags, std::move(of.box_lags));
   upload_of_levels.start(on, levels, std::move(of.levels));
   upload_of_ids.start(on, ids, std::move(of.ids));
   sites = std::move(of);
@@ -504,7 +514,24 @@ ExactCellsCheck ExactCellsResult::check() const {
   return found;
 }
 
-Report exact_cells(const Seeds& seeds, ExactCellsResult& result) {
+namespace {
+
+void check_weights(const std::vector<double>& weights, const std::vector<std::optional<Point>>& points) {
+  if (weights.empty()) return;
+  if (weights.size() != points.size()) {
+    throw Error(std::to_string(weights.size()) + " weights are not one for each of " +
+                std::to_string(points.size()) + " seeds");
+  }
+  for (std::size_t id = 0; id < points.size(); ++id) {
+    if (!points[id] || std::isfinite(weights[id])) continue;
+    throw Error("the weight of seed " + std::to_string(id) + " is " + std::to_string(weights[id]) +
+                "; weights must be finite");
+  }
+}
+
+}  // namespace
+
+Report exact_cells(const Seeds& seeds, ExactCellsResult& result, const ExactCellsOptions& options) {
   const Grid& grid = seeds.grid();
   if (grid.is_spaced()) throw Error("the grid has an axis that is spaced, which exact cells cannot take");
   const Stopwatch stopwatch;
@@ -513,9 +540,12 @@ Report exact_cells(const Seeds& seeds, ExactCellsResult& result) {
   state.is_made = false;
   const Device& device = seeds.device();
   require_doubles(device);
-  state.cells = seeds.size();
-  const auto [first, last] = grid.is_volume() ? state.start(device, sites_of_volume(grid, seeds.read()))
-                                              : state.start(device, sites_of_plane(grid, seeds.read()));
+  const std::vector<std::optional<Point>> points = seeds.read();
+  check_weights(options.weights, points);
+  state.cells = points.size();
+  const auto [first, last] = grid.is_volume()
+                                 ? state.start(device, sites_of_volume(grid, points, options.weights))
+                                 : state.start(device, sites_of_plane(grid, points, options.weights));
   check(clFlush(device.queue()()), "starting a measurement");
   state.is_made = true;
   return Internal::report(0, first, last, stopwatch.milliseconds(), first_launches.take());

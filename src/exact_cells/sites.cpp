@@ -19,6 +19,9 @@ namespace {
 
 // The longest side has at most so many steps (kernels/exact_cells/polygon.cl and volumes/sides.cl say why).
 constexpr int step_bits = 30, step_bits_if_tilted = 29, step_bits_of_volume = 40;
+
+// No two places are so far from each other, squared: a cell with such a lag is empty.
+constexpr double most_lag = 0x1p62, most_lag_of_volume = 0x1p83;
 constexpr std::size_t fan = FAN;
 
 /// A stretch of an axis in the units of the data.
@@ -128,21 +131,45 @@ void sort(std::vector<OnCurve>& places, IsBefore is_before) {
   }
 }
 
-/// Makes sites of places, by id, of which the first one at each place counts, and boxes around each eight
-/// sites, around each eight boxes, and so on. `far` is where sites and boxes are that are not there.
+/// The lags of points that are there, by id, in whole steps squared; none if all weights are the same.
+std::vector<double> lags_of(const std::vector<double>& weights,
+                            const std::vector<std::optional<Point>>& points, double step, double most_lag) {
+  double greatest = -std::numeric_limits<double>::infinity(), least = -greatest;
+  for (std::size_t id = 0; id < weights.size(); ++id) {
+    if (!points[id]) continue;
+    greatest = std::max(greatest, weights[id]);
+    least = std::min(least, weights[id]);
+  }
+  std::vector<double> lags;
+  if (least >= greatest) return lags;
+  lags.reserve(weights.size());
+  for (const double weight : weights)
+    lags.push_back(std::min(std::nearbyint((greatest - weight) / step / step), most_lag));
+  return lags;
+}
+
+/// Makes sites of places, by id, of which the one with the least lag, or else the first one, at each place
+/// counts, and boxes around each eight sites, around each eight boxes, and so on. `far` is where sites and
+/// boxes are that are not there.
 template <std::size_t dimensions, typename Number>
 void make_tree(SiteTree<Number>& tree, std::vector<OnCurve>&& order,
-               const std::vector<std::array<Number, dimensions>>& places, Number far) {
-  sort(order, [&places](const OnCurve& p, const OnCurve& q) {
-    return std::tie(p.order, places[p.id], p.id) < std::tie(q.order, places[q.id], q.id);
+               const std::vector<std::array<Number, dimensions>>& places, const std::vector<double>& lags,
+               Number far) {
+  const auto lag_of = [&lags](cl_uint id) { return lags.empty() ? 0.0 : lags[id]; };
+  sort(order, [&](const OnCurve& p, const OnCurve& q) {
+    if (p.order != q.order) return p.order < q.order;
+    if (places[p.id] != places[q.id]) return places[p.id] < places[q.id];
+    return lag_of(p.id) != lag_of(q.id) ? lag_of(p.id) < lag_of(q.id) : p.id < q.id;
   });
   const auto is_same = [&places](const OnCurve& p, const OnCurve& q) { return places[p.id] == places[q.id]; };
   order.erase(std::unique(order.begin(), order.end(), is_same), order.end());
   const auto groups_of = [](std::size_t entries) { return (entries + fan - 1) / fan; };
   struct Box {
     std::array<Number, dimensions> lower, upper;
+    double lag;
   };
   Box nothing;
+  nothing.lag = std::numeric_limits<double>::max();
   nothing.lower.fill(std::numeric_limits<Number>::max());
   nothing.upper.fill(std::numeric_limits<Number>::lowest());
   const auto add = [](Box& to, const Box& box) {
@@ -150,22 +177,26 @@ void make_tree(SiteTree<Number>& tree, std::vector<OnCurve>&& order,
       to.lower[axis] = std::min(to.lower[axis], box.lower[axis]);
       to.upper[axis] = std::max(to.upper[axis], box.upper[axis]);
     }
+    to.lag = std::min(to.lag, box.lag);
   };
   std::vector<Box> boxes(groups_of(order.size()), nothing);
   tree.ids.reserve(order.size());
   tree.places.resize(boxes.size() * dimensions * fan, far);
+  if (!lags.empty()) tree.lags.resize(boxes.size() * fan);
   for (std::size_t i = 0; i < order.size(); ++i) {
     const std::array<Number, dimensions>& place = places[order[i].id];
     tree.ids.push_back(order[i].id);
     for (std::size_t axis = 0; axis < dimensions; ++axis)
       tree.places[(i / fan * dimensions + axis) * fan + i % fan] = place[axis];
-    add(boxes[i / fan], {place, place});
+    if (!lags.empty()) tree.lags[i] = lags[order[i].id];
+    add(boxes[i / fan], {place, place, lag_of(order[i].id)});
   }
   tree.levels = {0};
   for (std::size_t groups = 0, of_level = 2; of_level > 1; groups += of_level) {
     tree.levels.push_back(static_cast<cl_uint>(groups));
     of_level = groups_of(boxes.size());
     tree.boxes.resize((groups + of_level) * 2 * dimensions * fan, far);
+    if (!lags.empty()) tree.box_lags.resize((groups + of_level) * fan);
     std::vector<Box> above(of_level, nothing);
     for (std::size_t i = 0; i < boxes.size(); ++i) {
       for (std::size_t axis = 0; axis < dimensions; ++axis) {
@@ -173,6 +204,7 @@ void make_tree(SiteTree<Number>& tree, std::vector<OnCurve>&& order,
         at[0] = boxes[i].lower[axis];
         at[fan] = boxes[i].upper[axis];
       }
+      if (!lags.empty()) tree.box_lags[groups * fan + i] = boxes[i].lag;
       add(above[i / fan], boxes[i]);
     }
     boxes.swap(above);
@@ -192,7 +224,8 @@ void make_tree(SiteTree<Number>& tree, std::vector<OnCurve>&& order,
 
 }  // namespace
 
-PlaneSites sites_of_plane(const Grid& grid, const std::vector<std::optional<Point>>& points) {
+PlaneSites sites_of_plane(const Grid& grid, const std::vector<std::optional<Point>>& points,
+                          const std::vector<double>& weights) {
   const double tilt = grid.tilt();
   const Stretch x = stretch_of(grid.x(), points, &Point::x), y = stretch_of(grid.y(), points, &Point::y);
   const int exponent =
@@ -223,11 +256,12 @@ PlaneSites sites_of_plane(const Grid& grid, const std::vector<std::optional<Poin
     order.push_back({hilbert_order(static_cast<std::uint32_t>(step_x), static_cast<std::uint32_t>(step_y)),
                      static_cast<cl_uint>(id)});
   }
-  make_tree<2>(sites, std::move(order), places, 0);
+  make_tree<2>(sites, std::move(order), places, lags_of(weights, points, sites.step, most_lag), 0);
   return sites;
 }
 
-VolumeSites sites_of_volume(const Grid& grid, const std::vector<std::optional<Point>>& points) {
+VolumeSites sites_of_volume(const Grid& grid, const std::vector<std::optional<Point>>& points,
+                            const std::vector<double>& weights) {
   const Stretch x = stretch_of(grid.x(), points, &Point::x), y = stretch_of(grid.y(), points, &Point::y),
                 z = stretch_of(grid.z(), points, &Point::z);
   const int exponent = exponent_of_step(std::max({x.length(), y.length(), z.length()}), step_bits_of_volume);
@@ -262,7 +296,8 @@ VolumeSites sites_of_volume(const Grid& grid, const std::vector<std::optional<Po
     sites.beyond[id] = beyond;
   }
   constexpr double far = 1e17;  // no box is so long
-  make_tree<3>(sites, std::move(order), places, far);
+  make_tree<3>(sites, std::move(order), places, lags_of(weights, points, sites.step, most_lag_of_volume),
+               far);
   return sites;
 }
 

@@ -19,7 +19,9 @@ struct SiteTree {
   std::vector<Number> places;   // of each eight sites eight x, eight y and in a volume eight z
   std::vector<Number> boxes;    // of each eight boxes eight lower and eight upper x, and so on
   std::vector<cl_uint> levels;  // by level the first of its groups of boxes; level 0 has none
-  Point origin;                 // in the units of the data: step 0 of all axes
+  std::vector<cl_double> lags,
+      box_lags;  // of sites and of boxes, as lanes.cl has them; empty without weights
+  Point origin;  // in the units of the data: step 0 of all axes
   double step = 0;
 
   cl_uint count() const { return static_cast<cl_uint>(ids.size()); }
@@ -53,8 +55,10 @@ struct VolumeSites : SiteTree<cl_double> {
   }
 };
 
-/// Throws Error if the grid has less than a step along an axis.
-PlaneSites sites_of_plane(const Grid& grid, const std::vector<std::optional<Point>>& points);
-VolumeSites sites_of_volume(const Grid& grid, const std::vector<std::optional<Point>>& points);
+/// Throws Error if the grid has less than a step along an axis. `weights`: by id, or none.
+PlaneSites sites_of_plane(const Grid& grid, const std::vector<std::optional<Point>>& points,
+                          const std::vector<double>& weights);
+VolumeSites sites_of_volume(const Grid& grid, const std::vector<std::optional<Point>>& points,
+                            const std::vector<double>& weights);
 
 }  // namespace vorocl

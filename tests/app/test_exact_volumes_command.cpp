@@ -212,6 +212,58 @@ BOOST_AUTO_TEST_CASE(frames_of_a_volume_have_the_cells_of_each_frame) {
   BOOST_TEST(found_in(polyhedra, "NumberOfCells=\"([^\"]*)\"") == "30");
 }
 
+BOOST_AUTO_TEST_CASE(weights_and_radii_come_from_a_column) {
+  const TemporaryFolder folder;
+  // Along x the bisectors are at 1 + (4 + w - w') / 4, and the last point has no cell.
+  const std::string rows = "1,1,1,1,1\n3,1,1,0.25,0.5\n2,1,1,-9,0\n";
+  const std::string header = "x,y,z,w,r\n", cells = " --cells c.csv --cell-columns ";
+  folder.file("p.csv", header + rows);
+  const std::string points = "cells --exact --points p.csv --columns x,y,z --bounds 0,0,0,4,2,2 ";
+  for (const std::string column : {"--weights w", "--radius r"}) {
+    succeeds(folder, points + column + cells + "id,volume,centroid_x,neighbours");
+    const bool has_third = column == "--radius r";  // its weight is 0
+    const std::string expected =
+        has_third ? "id,volume,centroid_x,neighbours\n0,8,1,1\n1,6.5,3.1875,1\n2,1.5,2.1875,2\n"
+                  : "id,volume,centroid_x,neighbours\n0,8.75,1.09375,1\n1,7.25,3.09375,1\n2,0,,0\n";
+    BOOST_TEST(content_of(folder / "c.csv") == expected);
+  }
+  BOOST_TEST(run(folder, points + "--weights w --cells c.csv").out.find("1 seed without a cell") !=
+             std::string::npos);
+  succeeds(folder,
+           "cells --exact --points p.csv --columns x,y --bounds 0,0,4,2 --weights w" + cells + "id,area");
+  BOOST_TEST(content_of(folder / "c.csv") == "id,area\n0,4.375\n1,3.625\n2,0\n");
+  std::string dump = dump_of({{1, 1, 1}, {3, 1, 1}}, 4), with_radius = dump;
+  const auto add = [&](const std::string& after, const std::string& text) {
+    with_radius.replace(with_radius.find(after), after.size(), text);
+  };
+  add("id x y z\n", "id x y z radius\n");
+  add("1 1 1 1\n", "1 1 1 1 1\n");
+  add("2 3 1 1\n", "2 3 1 1 0.5\n");
+  folder.file("t.dump", with_radius + with_radius);
+  succeeds(folder,
+           "simulate --exact --trajectory t.dump --periodic xyz --radius radius" + cells + "id,volume");
+  BOOST_TEST(content_of(folder / "c.csv") ==
+             "frame,timestep,id,volume\n0,0,1,38\n0,0,2,26\n1,0,1,38\n1,0,2,26\n");
+  succeeds(folder, "cells --exact --trajectory t.dump --bounds 0,0,4,4 --radius radius" + cells + "id,area");
+  BOOST_TEST(content_of(folder / "c.csv") == "id,area\n1,9.5\n2,6.5\n");
+
+  folder.file("bad.csv", header + "1,1,1,,-1\n3,1,1,0,0\n");
+  const std::string bad = "cells --exact --points bad.csv --columns x,y,z --cells c.csv --device none ";
+  refuses(folder, bad + "--weights w", failure, {"bad.csv", "weight of seed 0", "column w", "finite"});
+  refuses(folder, bad + "--radius r", failure, {"bad.csv", "radius of seed 0", "-1", "not negative"});
+  refuses(folder, bad + "--radius r --weights w", usage, {"--radius", "--weights"});
+  refuses(folder, bad + "--weights none", failure, {"no column none"});
+  folder.file("text.csv", "x,y,z,kind\n1,1,1,A\n");
+  refuses(folder, "cells --exact --points text.csv --columns x,y,z --weights kind --cells c.csv", failure,
+          {"text.csv", "kind", "\"A\""});
+  refuses(folder, "cells --exact --random 9 --size 8x8 --weights w --cells c.csv", usage,
+          {"--weights", "--points"});
+  refuses(folder, "cells --points p.csv --width 9 --weights w --cells c.csv", usage,
+          {"--weights requires --exact"});
+  refuses(folder, "simulate --trajectory t.dump --width 9 --radius r --cells c.csv", usage,
+          {"--radius requires --exact"});
+}
+
 BOOST_AUTO_TEST_CASE(a_plane_is_cut_where_the_line_says_so) {
   const TemporaryFolder folder;
   folder.file("t.dump", dump_of({{1, 1, 1}, {2, 2, 3}}, 4));

@@ -81,6 +81,7 @@ static void test_cells(const vorocl_device* device, const vorocl_seeds* seeds) {
 static void test_volume(const vorocl_device* device) {
   const vorocl_grid box = vorocl_grid_of_voxels(4, 2, 2, VOROCL_PERIODIC_X);
   const vorocl_point two[2] = {{1, 1, 1}, {3, 1, 1}};
+  const double weights[2] = {1, 0.25};
   vorocl_seeds* seeds = NULL;
   vorocl_exact_cells* all = NULL;
   vorocl_exact_cell cells[2];
@@ -119,6 +120,12 @@ static void test_volume(const vorocl_device* device) {
   }
   vorocl_exact_polyhedra_free(polyhedra);
   vorocl_exact_polyhedra_free(NULL);
+  /* With weights their bisectors are (4 + 1 - 1 / 4) / 4 from the first one. */
+  OK(vorocl_exact_cells_cut_weighted(all, seeds, weights, 2));
+  OK(vorocl_exact_cells_read(all, cells, 2));
+  CHECK(cells[0].area == 9.5 && cells[1].area == 6.5);
+  FAILS(vorocl_exact_cells_cut_weighted(all, seeds, weights, 1), VOROCL_BAD_ARGUMENT, "weights");
+  FAILS(vorocl_exact_cells_cut_weighted(all, seeds, NULL, 2), VOROCL_NULL_ARGUMENT, "weights is NULL");
   vorocl_exact_cells_free(all);
   vorocl_seeds_free(seeds);
 }

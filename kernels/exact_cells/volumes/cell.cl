@@ -58,8 +58,11 @@ typedef uchar4 indices_t;
 typedef struct {
   CELL_LISTS(DECLARED_LIST)
   int room;
-  int top, count;  // vertices lie before top; planes
-  uint site;       // whose cell this is
+  int top, count;             // vertices lie before top; planes
+  uint site;                  // whose cell this is
+  global const double* lags;  // of sites; null without weights
+  double lag;                 // of the site
+  double slack;               // by how much, twice, lags differ from that of a site behind a plane
   bool is_full, is_broken, is_doubtful;
 } __attribute__((aligned(64))) cell_t;
 

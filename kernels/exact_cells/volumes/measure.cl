@@ -8,8 +8,8 @@
 #include "exact_cells/found.cl"
 #include "exact_cells/volumes/search.cl"
 
-// Lists the edges of a cell, each once: two vertices, and the planes on both sides. Returns how many. And says that
-// planes with vertices have corners.
+// Lists the edges of a cell, each once: two vertices, and the planes on both sides. Returns how many. And
+// says that planes with vertices have corners.
 static inline int list_edges(cell_t* cell) {
   int edges = 0;
   for (int p = 0; p < cell->count; ++p) cell->corners[p] = 0;
@@ -51,7 +51,8 @@ static inline void count_corners(cell_t* cell, int edges) {
   }
 }
 
-// Where ties were broken, planes that are almost parallel may cross: their vertices are computed from whole numbers.
+// Where ties were broken, and with weights, planes that are almost parallel may cross: their vertices are computed from
+// whole numbers.
 static inline void place_rough(cell_t* cell) {
   for (int w = 0; w < WORDS; ++w) {
     for (ulong left = cell->alive[w]; left != 0; left &= left - 1) {
@@ -62,8 +63,17 @@ static inline void place_rough(cell_t* cell) {
   }
 }
 
+// Lists the edges of a cell that has been cut. Returns how many.
+static inline int finish_cell(cell_t* cell) {
+  const int edges = list_edges(cell);
+  if (cell->is_doubtful || cell->lags != 0) place_rough(cell);
+  if (cell->is_doubtful) count_corners(cell, edges);
+  return edges;
+}
+
 // An edge between u and v gives n.(u x v) to the faces on both sides: areas, volume and centroid. Sums are
-// taken in half steps from the site, where they lose least.
+// taken in half steps from the site, or with weights, which may put a cell far from its site, from a vertex:
+// where they lose least.
 static inline void measure_cell(cell_t* cell, const tree_t* tree, const near_t* near, MEASURE_PARAMETERS, uint site) {
   const uint id = ids[site];
   cut_by_all(cell, tree, near, site);
@@ -72,20 +82,24 @@ static inline void measure_cell(cell_t* cell, const tree_t* tree, const near_t* 
     edge_counts[id] = 0;
     return;
   }
-  const int edges = list_edges(cell);
-  if (cell->is_doubtful) {
-    place_rough(cell);
-    count_corners(cell, edges);
+  const int edges = finish_cell(cell);
+  double3 base = 0;
+  for (int w = 0; w < WORDS && cell->lags != 0; ++w) {
+    const int v = w * 64 + lowest_of(cell->alive[w]);
+    if (cell->alive[w] != 0) base = (double3)(cell->x[v], cell->y[v], cell->z[v]);
   }
   for (int p = 0; p < cell->count; ++p) {
+    const double4 plane = cell->planes[p];
+    const double square = plane.x * plane.x + plane.y * plane.y + plane.z * plane.z;
     cell->sums[p] = 0;
-    cell->scales[p] = cell->sites[p] == NO_CELL ? cell->planes[p].w : 1;  // c / |n|^2
+    cell->scales[p] = (plane.w - (plane.x * base.x + plane.y * base.y + plane.z * base.z)) / square;  // c / |n|^2
   }
   double mx = 0, my = 0, mz = 0;
   for (int i = 0; i < edges; ++i) {
     const indices_t edge = cell->edges[i];
     const int v = edge.s0, u = edge.s1, p = edge.s2, q = edge.s3;
-    const double vx = cell->x[v], vy = cell->y[v], vz = cell->z[v], ux = cell->x[u], uy = cell->y[u], uz = cell->z[u];
+    const double vx = cell->x[v] - base.x, vy = cell->y[v] - base.y, vz = cell->z[v] - base.z;
+    const double ux = cell->x[u] - base.x, uy = cell->y[u] - base.y, uz = cell->z[u] - base.z;
     const double x = vy * uz - vz * uy, y = vz * ux - vx * uz, z = vx * uy - vy * ux;
     const double4 of_p = cell->planes[p], of_q = cell->planes[q];
     const double part_p = -(of_p.x * x + of_p.y * y + of_p.z * z), part_q = of_q.x * x + of_q.y * y + of_q.z * z;
@@ -124,7 +138,7 @@ static inline void measure_cell(cell_t* cell, const tree_t* tree, const near_t* 
   areas[id] = volume / 48 * step * step * step;
   perimeters[id] = surface;
   const double3 centroid =
-      faces == 0 ? (double3)NAN : origin.xyz + (site_at(tree, site) + moment / (8 * volume)) * step;
+      faces == 0 ? (double3)NAN : origin.xyz + (site_at(tree, site) + (base + moment / (4 * volume)) / 2) * step;
   vstore3(centroid, id, centroids);
 }
 
@@ -144,8 +158,7 @@ static inline void outline_cell(cell_t* cell, const tree_t* tree, const near_t* 
     queue[atomic_inc(counters + 1)] = site;
     return;
   }
-  const int edges = list_edges(cell);
-  count_corners(cell, edges);
+  const int edges = finish_cell(cell);
   // Vertices at one place get the number of one: `slots` of the least of those that edges without length
   // join.
   CELL_SPACE index_t* const numbers = cell->slots;

@@ -1,7 +1,9 @@
 // A cell as a convex polyhedron, cut by one plane after another. Positions are whole numbers of steps of the
 // grid that the host rounds points to, at most 2^40 along a side, kept in doubles. Seen from the site, in
-// half steps, the bisector of a site that is n away is the plane n.v = c with c = |n|^2. So are the sides of
-// the box. A cell is where n.v <= c for all its planes.
+// half steps, the bisector of a site that is n away is the plane n.v = c with c = |n|^2, and with weights
+// + the other's lag - the own one (see lanes.cl). So are the sides of the box. A cell is where n.v <= c for
+// all its planes. A c is wrong by at most 2^-51 of |n|^2 and the lags' difference, which together are at most
+// |c| and `slack`.
 //
 // A vertex is where three planes cross, always three (sides.cl says how ties are broken), with the three
 // vertices at the other ends of its edges: a triangle of the dual. A plane is tried against eight vertices at
@@ -15,8 +17,8 @@
 #include "exact_cells/volumes/sides.cl"
 
 // Which vertices of a word may have n.v > c, as bits, and which have for sure.
-static inline ulong beyond(const cell_t* cell, int word, double3 n, double c, ulong8* sure) {
-  const double norm = norm_of(n), doubt = 0x1p-50 * fabs(c);
+static inline ulong beyond(const cell_t* cell, int word, double3 n, double c, double slack, ulong8* sure) {
+  const double norm = norm_of(n), doubt = 0x1p-50 * (fabs(c) + slack);
   ulong8 found = 0, certain = 0, bits = (ulong8)(1, 2, 4, 8, 16, 32, 64, 128);
   const int end = ONE_WORD ? cell->top : min(cell->top, word * 64 + 64);
   for (int k = word * 64; k < end; k += 8) {
@@ -81,7 +83,8 @@ static inline void place_vertices(cell_t* cell, int i, double4 n) {
   const double8 a = fabs(ax) + fabs(ay) + fabs(az), b = fabs(bx) + fabs(by) + fabs(bz);
   const double g = norm_of(n.xyz);
   const double8 far = fabs(x) + fabs(y) + fabs(z);
-  const double8 sizes = g * (fabs(ac) * b + fabs(bc) * a) + (fabs(n.w) + far * g) * (a * b);
+  const double slack = cell->slack;
+  const double8 sizes = g * ((fabs(ac) + slack) * b + (fabs(bc) + slack) * a) + (fabs(n.w) + slack + far * g) * (a * b);
   const double8 error = fma((double8)0x1p-48, sizes * fabs(one), 0x1p-50 * far);
   scatter(x, cell->x, slots);
   scatter(y, cell->y, slots);
@@ -184,12 +187,14 @@ static inline void find_slots(cell_t* cell, int edges) {
   }
 }
 
-// Cuts off what lies beyond a plane. Returns whether that is anything.
-static inline bool cut(cell_t* cell, double3 n, double c, uint site, int image) {
+// Cuts off what lies beyond the bisector of a site that is n away. Returns whether that is anything.
+static inline bool cut(cell_t* cell, double3 n, uint site, int image) {
+  const double more = lag_of(cell->lags, site) - cell->lag, slack = 2 * fabs(more);
+  const double c = n.x * n.x + n.y * n.y + n.z * n.z + more;
   ulong any = 0;
   for (int w = 0; w < WORDS; ++w) {
     ulong8 sure;
-    const ulong may = beyond(cell, w, n, c, &sure);
+    const ulong may = beyond(cell, w, n, c, slack, &sure);
     cell->gone[w] = may == 0 ? 0 : or_of(sure) & may;
     cell->unsure[w] = may & ~cell->gone[w];
     any |= may;
@@ -213,6 +218,7 @@ static inline bool cut(cell_t* cell, double3 n, double c, uint site, int image) 
   if (edges < 3) cell->is_broken |= edges > 0 || kept > 0;
   if (edges > ROOM - kept || cell->count == MOST_PLANES) cell->is_full = edges >= 3;
   if (edges < 3 || cell->is_full) return end_cell(cell);
+  cell->slack = fmax(cell->slack, slack);
   const int plane = cell->count++;
   cell->planes[plane] = (double4)(n, c);
   cell->sites[plane] = site;
@@ -245,7 +251,8 @@ static inline bool cut(cell_t* cell, double3 n, double c, uint site, int image) 
 
 // Begins a cell as a box around its site: plane 2 k and the next one are its ends along axis k. `low` and
 // `high` are in half steps.
-static inline void begin_box(cell_t* cell, uint site, const double* low, const double* high) {
+static inline void begin_box(cell_t* cell, global const double* lags, uint site, const double* low,
+                             const double* high) {
   for (int k = 0; k < ROOM; k += 8) {
     vstore8((double8)0, 0, cell->x + k);
     vstore8((double8)0, 0, cell->y + k);
@@ -256,6 +263,9 @@ static inline void begin_box(cell_t* cell, uint site, const double* low, const d
   cell->alive[0] = 0xff;
   cell->top = 8;
   cell->site = site;
+  cell->lags = lags;
+  cell->lag = lag_of(lags, site);
+  cell->slack = 0;
   cell->count = 6;
   cell->is_full = cell->is_broken = cell->is_doubtful = false;
   for (int v = 0; v < 8; ++v) {

@@ -8,20 +8,22 @@
 #include "exact_cells/volumes/polyhedron.cl"
 
 // Which sites there are: in the kernels' arguments, and as what functions take.
-#define SITE_PARAMETERS                                                                                   \
-  uint count, global const double *sites, global const double *boxes, global const uint *levels, int top, \
-      double4 lower, double4 upper, double4 periods
+#define SITE_PARAMETERS                                                                          \
+  uint count, global const double *sites, global const double *boxes, global const uint *levels, \
+      global const double *lags, global const double *box_lags, int top, double4 lower, double4 upper, double4 periods
 #define SITE_ARGUMENTS \
-  { count, sites, boxes, levels, top, lower, upper, periods }
+  { count, sites, boxes, levels, lags, box_lags, top, lower, upper, periods }
 
 typedef struct {
-  uint count;                  // of sites
-  global const double* sites;  // per leaf eight x, eight y and eight z, in steps; far away behind the last site
-  global const double* boxes;  // per group eight lower and eight upper x, y, z; far away behind the last one
-  global const uint* levels;   // by level: its first group. Those of level 1 are boxes around leaves.
-  int top;                     // the last level
-  double4 lower, upper;        // of the box
-  double4 periods;             // 0 along an axis without
+  uint count;                     // of sites
+  global const double* sites;     // per leaf eight x, eight y and eight z, in steps; far away behind the last site
+  global const double* boxes;     // per group eight lower and eight upper x, y, z; far away behind the last one
+  global const uint* levels;      // by level: its first group. Those of level 1 are boxes around leaves.
+  global const double* lags;      // per site, and null without weights
+  global const double* box_lags;  // per group eight
+  int top;                        // the last level
+  double4 lower, upper;           // of the box
+  double4 periods;                // 0 along an axis without
 } tree_t;
 
 static inline double3 site_at(const tree_t* tree, uint site) {
@@ -70,21 +72,23 @@ static inline void begin_cell(cell_t* cell, const tree_t* tree, double3 at, uint
       cell->images[plane] = (index_t)(is_periodic ? ITSELF + (end == 0 ? -way : way) : ITSELF);
     }
   }
-  begin_box(cell, site, low, high);
+  begin_box(cell, tree->lags, site, low, high);
 }
 
 // --- boxes and sites, eight at a time ---
 
 typedef struct {
   float8 x0, x1, y0, y1, z0, z1;  // as seen from a place
+  float8 leads;                   // over a lag
 } boxes_t;
 
-static inline boxes_t boxes_of_group(const tree_t* tree, int level, uint group, double3 from) {
+static inline boxes_t boxes_of_group(const tree_t* tree, int level, uint group, double3 from, double lag) {
   const size_t at = 6 * (size_t)(tree->levels[level] + group);
   const boxes_t boxes = {
-      convert_float8(vload8(at, tree->boxes) - from.x),     convert_float8(vload8(at + 1, tree->boxes) - from.x),
-      convert_float8(vload8(at + 2, tree->boxes) - from.y), convert_float8(vload8(at + 3, tree->boxes) - from.y),
-      convert_float8(vload8(at + 4, tree->boxes) - from.z), convert_float8(vload8(at + 5, tree->boxes) - from.z)};
+      convert_float8(vload8(at, tree->boxes) - from.x),          convert_float8(vload8(at + 1, tree->boxes) - from.x),
+      convert_float8(vload8(at + 2, tree->boxes) - from.y),      convert_float8(vload8(at + 3, tree->boxes) - from.y),
+      convert_float8(vload8(at + 4, tree->boxes) - from.z),      convert_float8(vload8(at + 5, tree->boxes) - from.z),
+      leads_of(tree->box_lags, tree->levels[level] + group, lag)};
   return boxes;
 }
 
@@ -98,13 +102,14 @@ static inline float8 distances_of(boxes_t boxes, float3 low, float3 high) {
 
 // Which of eight boxes, as seen from the site, may hold sites that cut, the nearest first.
 static inline uint8 order_of_boxes(const cell_t* cell, boxes_t boxes, float end) {
-  const float8 distances = distances_of(boxes, (float3)(0), (float3)(0));
+  const float8 away = distances_of(boxes, (float3)(0), (float3)(0)), more = with_margin(boxes.leads);
+  const float8 distances = cell->lags != 0 ? bisectors_at(away, boxes.leads) : away;
   const int8 is_near = distances < end;
   if (bits_of_ints(is_near) == 0) return FAR;
   int8 may_cut = 0;
   for (int k = 0; k < cell->top; ++k) {
     const float3 v = 0.5f * convert_float3((double3)(cell->x[k], cell->y[k], cell->z[k]));
-    may_cut |= distances_of(boxes, v, v) <= (v.x * v.x + v.y * v.y + v.z * v.z) * 1.00001f;
+    may_cut |= distances_of(boxes, v, v) <= (v.x * v.x + v.y * v.y + v.z * v.z) * 1.00001f + more;
   }
   return order_of(distances, may_cut & is_near);
 }
@@ -124,8 +129,10 @@ typedef struct {
   uchar images[MOST_NEAR];
   double3 base;      // the leaf's first site
   float3 low, high;  // its box
+  double lag;        // the greatest of the leaf's sites
   int count;         // of leaves
   float distance;    // 0: there are too many
+  float least;       // of the squared distances of bisectors with sites that are not listed
 } __attribute__((aligned(64))) near_t;
 
 static inline void add_leaf(near_t* near, const tree_t* tree, uint leaf, int image, double3 from) {
@@ -147,6 +154,7 @@ static inline void add_leaf(near_t* near, const tree_t* tree, uint leaf, int ima
 static inline bool list_near(near_t* near, const tree_t* tree, float distance) {
   near->count = 0;
   near->distance = distance;
+  near->least = INFINITY;
   for (int i = 0; i < IMAGES; ++i) {
     const int image = (i + ITSELF) % IMAGES;
     if (!has_image(tree, image)) continue;
@@ -157,8 +165,14 @@ static inline bool list_near(near_t* near, const tree_t* tree, float distance) {
     for (int level = tree->top, is_new = 1; level <= tree->top;) {
       if (is_new != 0) {
         firsts[level] = group * FAN;
-        within[level] = bits_of_ints(distances_of(boxes_of_group(tree, level, group, from), near->low, near->high) <=
-                                     distance * distance);
+        const boxes_t boxes = boxes_of_group(tree, level, group, from, near->lag);
+        const float8 distances = distances_of(boxes, near->low, near->high);
+        const int8 is_near = distances <= distance * distance;
+        within[level] = bits_of_ints(is_near);
+        if (tree->lags != 0) {
+          const float8 others = select(bisectors_at(distances, boxes.leads), (float8)INFINITY, is_near);
+          near->least = fmin(near->least, least_of_floats(others));
+        }
       }
       is_new = within[level] != 0 && level > 1;
       if (within[level] == 0) {
@@ -180,6 +194,7 @@ static inline bool list_near(near_t* near, const tree_t* tree, float distance) {
 
 static inline void find_near(near_t* near, const tree_t* tree, uint leaf) {
   near->base = site_at(tree, leaf * FAN);
+  near->lag = most_lag(tree->lags, leaf, tree->count);
   const uint first = leaf & ~(uint)(FAN - 1);
   float3 low = INFINITY, high = -INFINITY;  // of the 64 sites around: they say how dense sites are here
   const uint leaves = min((tree->count + FAN - 1) / FAN - first, (uint)FAN);
@@ -200,7 +215,7 @@ static inline void find_near(near_t* near, const tree_t* tree, uint leaf) {
     if (list_near(near, tree, distance)) return;
   }
   near->count = 0;
-  near->distance = 0;
+  near->distance = near->least = 0;
 }
 
 // Cuts a cell by one of the sites of the list.
@@ -208,8 +223,16 @@ static inline bool cut_by_listed(cell_t* cell, const near_t* near, int k, double
   const uint other = near->leaves[k >> FAN_BITS] * FAN + (uint)(k & (FAN - 1));
   const int image = near->images[k >> FAN_BITS];
   if (begins(site, other, image)) return false;
-  const double3 n = (double3)(near->exact_x[k], near->exact_y[k], near->exact_z[k]) - from;
-  return cut(cell, n, n.x * n.x + n.y * n.y + n.z * n.z, other, image);
+  return cut(cell, (double3)(near->exact_x[k], near->exact_y[k], near->exact_z[k]) - from, other, image);
+}
+
+// The squared distances of the bisectors with eight sites of the list, from site k on.
+static inline float8 bisectors_of_listed(const cell_t* cell, const near_t* near, int k, float3 from) {
+  const float8 x = vload8(0, near->x + k) - from.x, y = vload8(0, near->y + k) - from.y,
+               z = vload8(0, near->z + k) - from.z;
+  const float8 distances = x * x + y * y + z * z;
+  if (cell->lags == 0) return distances;
+  return bisectors_at(distances, leads_of(cell->lags, near->leaves[k >> FAN_BITS], cell->lag));
 }
 
 // Cuts a cell by the sites of the list: by those nearer than is covered about in the order of their
@@ -224,9 +247,7 @@ static inline float cut_by_near(cell_t* cell, const near_t* near, double3 at, ui
   for (int b = 0; b < BUCKETS; ++b) ends[b] = 0;
   const int sites = near->count * FAN;
   for (int k = 0; k < sites; k += 8) {
-    const float8 x = vload8(0, near->x + k) - from.x, y = vload8(0, near->y + k) - from.y,
-                 z = vload8(0, near->z + k) - from.z;
-    const float8 d = (x * x + y * y + z * z) * scale;
+    const float8 d = bisectors_of_listed(cell, near, k, from) * scale;
     vstore8(convert_int8(fmin(d, (float8)(BUCKETS))), 0, buckets + k);
   }
   int found = 0;
@@ -251,10 +272,11 @@ static inline float cut_by_near(cell_t* cell, const near_t* near, double3 at, ui
   }
   end = end_of(cell);
   if (end < covered * covered) return end;
-  for (int k = 0; k < sites; ++k) {
-    const float x = near->x[k] - from.x, y = near->y[k] - from.y, z = near->z[k] - from.z;
-    if (buckets[k] == BUCKETS && x * x + y * y + z * z < end && cut_by_listed(cell, near, k, exact_from, site))
-      end = end_of(cell);
+  for (int k = 0; k < sites; k += 8) {
+    const int8 may_cut = (bisectors_of_listed(cell, near, k, from) < end) & (vload8(0, buckets + k) == BUCKETS);
+    for (int left = bits_of_ints(may_cut); left != 0; left &= left - 1) {
+      if (cut_by_listed(cell, near, k + lowest_bit(left), exact_from, site)) end = end_of(cell);
+    }
   }
   return end;
 }
@@ -275,14 +297,13 @@ static inline float cut_by_leaf(cell_t* cell, const tree_t* tree, uint leaf, dou
   const float8 x = convert_float8(vload8(at, tree->sites) - from.x),
                y = convert_float8(vload8(at + 1, tree->sites) - from.y),
                z = convert_float8(vload8(at + 2, tree->sites) - from.z);
-  const boxes_t points = {x, x, y, y, z, z};
+  const boxes_t points = {x, x, y, y, z, z, leads_of(tree->lags, leaf, cell->lag)};
   uint8 order = order_of_boxes(cell, points, end);
   for (uint next = least_of(order); next < as_uint(end); next = least_of(order)) {
     order = without(order, next);
     const uint other = leaf * FAN + (next & (FAN - 1));
     if (other >= tree->count || begins(site, other, image)) continue;
-    const double3 n = site_at(tree, other) - from;
-    if (cut(cell, n, n.x * n.x + n.y * n.y + n.z * n.z, other, image)) end = end_of(cell);
+    if (cut(cell, site_at(tree, other) - from, other, image)) end = end_of(cell);
   }
   return end;
 }
@@ -297,7 +318,7 @@ static inline void cut_by_tree(cell_t* cell, const tree_t* tree, const near_t* n
     uint firsts[MOST_LEVELS + 1];
     int level = tree->top;
     firsts[level] = 0;
-    orders[level] = order_of_boxes(cell, boxes_of_group(tree, level, 0, from), end);
+    orders[level] = order_of_boxes(cell, boxes_of_group(tree, level, 0, from, cell->lag), end);
     while (level <= tree->top) {
       const uint next = least_of(orders[level]);
       if (next >= as_uint(end)) {
@@ -309,7 +330,7 @@ static inline void cut_by_tree(cell_t* cell, const tree_t* tree, const near_t* n
       if (level > 1) {
         --level;
         firsts[level] = node * FAN;
-        orders[level] = order_of_boxes(cell, boxes_of_group(tree, level, node, from), end);
+        orders[level] = order_of_boxes(cell, boxes_of_group(tree, level, node, from, cell->lag), end);
       } else if (!is_listed(near, node, image)) {
         end = cut_by_leaf(cell, tree, node, from, site, image, end);
       }
@@ -324,7 +345,7 @@ static inline void cut_by_all(cell_t* cell, const tree_t* tree, const near_t* ne
   const float3 inside = fmin(from - near->low, near->high - from);  // how deep in the leaf's box
   const float covered = 0.9999f * (near->distance + fmax(fmin(fmin(inside.x, inside.y), inside.z), 0.0f));
   const float end = near->count > 0 ? cut_by_near(cell, near, at, site, covered) : end_of(cell);
-  if (end >= covered * covered) cut_by_tree(cell, tree, near, at, site, end);
+  if (end >= (tree->lags != 0 ? near->least : covered * covered)) cut_by_tree(cell, tree, near, at, site, end);
 }
 
 #endif

@@ -2,9 +2,16 @@
 // determinant of sites whose weights differ by infinitely little (the first site's is the greatest). So all
 // vertices have three planes, all cells agree, and being a neighbour is mutual, in lattices too.
 //
+// Weights may make a cell that is flat. So that it is empty, the sides of the box come first, by infinitely
+// little, to where the box is smaller, and then all weights are greater by the same infinitely small part of
+// themselves. (With heights |p|^2 - w over the sites a cell is empty if its site's point is above, and flat if
+// it is on, a plane through others around it. As if |p|^2 were divided by a little more than 1, it is above: the
+// square at a mean of places is less than the mean of the squares.)
+//
 // How large the numbers are: with positions of b = 40 bits, n has b + 1 bits and a sign, a determinant of
-// three is less than 2^(3 b + 3), c less than 2^(2 b + 2), their product less than 2^(5 b + 5) = 2^205, and a
-// sum of four less than 2^207. So determinants and c take 128 bits, and sums 256.
+// three is less than 2^(3 b + 3), |n|^2 less than 2^(2 b + 2), and a lag at most 2^(2 b + 3), beyond which a
+// cell is empty: so c is less than 2^(2 b + 4), their product less than 2^(5 b + 7) = 2^207, and a sum of
+// four less than 2^209. So determinants and c take 128 bits, and sums 256.
 
 #ifndef VOROCL_EXACT_CELLS_SIDES
 #define VOROCL_EXACT_CELLS_SIDES
@@ -98,17 +105,32 @@ static inline double sum_of_products(const wide_t* a, const wide_t* b) {
   return is_negative ? -total : total;
 }
 
+// A whole number that is not negative.
+static inline wide_t whole(double number) {
+  const double high = trunc(number * 0x1p-64);
+  const wide_t wide = {(ulong)(number - high * 0x1p64), (long)high};
+  return wide;
+}
+
+// By how much a site's lag is greater than that of the cell.
+static inline wide_t lag_beyond(const cell_t* cell, uint site) {
+  return sum(whole(cell->lags[site]), negative(whole(cell->lag)));
+}
+
 // The c of a plane.
-static inline wide_t constant_of(way_t n, double c, uint site) {
+static inline wide_t constant_of(const cell_t* cell, way_t n, double c, uint site) {
   if (site == NO_CELL) return product((long)c, 1);
-  return sum(sum(product(n.x, n.x), product(n.y, n.y)), product(n.z, n.z));
+  const wide_t square = sum(sum(product(n.x, n.x), product(n.y, n.y)), product(n.z, n.z));
+  if (cell->lags == 0) return square;
+  return sum(square, lag_beyond(cell, site));
 }
 
 // Of four planes in whole numbers: for each the determinant of the three others, with a sign, and the sign of
 // the sum of these times c. `sites` are behind them.
-static inline int wide_side(const way_t* n, const double* c, const uint* sites, wide_t* determinants) {
+static inline int wide_side(const cell_t* cell, const way_t* n, const double* c, const uint* sites,
+                            wide_t* determinants) {
   wide_t constants[4];
-  for (int k = 0; k < 4; ++k) constants[k] = constant_of(n[k], c[k], sites[k]);
+  for (int k = 0; k < 4; ++k) constants[k] = constant_of(cell, n[k], c[k], sites[k]);
   for (int k = 0; k < 3; ++k) {
     const way_t q = n[k == 2 ? 0 : k + 1], r = n[k == 0 ? 2 : k - 1];
     const wide_t x = minor_of(q.y, q.z, r.y, r.z), y = minor_of(q.z, q.x, r.z, r.x), z = minor_of(q.x, q.y, r.x, r.y);
@@ -121,7 +143,8 @@ static inline int wide_side(const way_t* n, const double* c, const uint* sites, 
 // As wide_side(), of numbers of 11 bits but for a common power of two, as those of lattices are: then all
 // takes 62 bits. False if they are longer. (All bisectors, and all c, may be divided by one power of two: no
 // sign changes.)
-static inline bool narrow_side(way_t* n, const double* c, const uint* sites, wide_t* determinants, int* side) {
+static inline bool narrow_side(const cell_t* cell, way_t* n, const double* c, const uint* sites, wide_t* determinants,
+                               int* side) {
   ulong bits = 0;
   for (int k = 0; k < 4; ++k) {
     if (sites[k] != NO_CELL)
@@ -132,15 +155,22 @@ static inline bool narrow_side(way_t* n, const double* c, const uint* sites, wid
   const int shift = lowest_of(bits);
   if (bits >> shift >= 1UL << 11) return false;
   long constants[4], found[4], total = 0;
+  way_t ways[4];
   for (int k = 0; k < 4; ++k) {
+    ways[k] = n[k];
     if (sites[k] == NO_CELL) {
       constants[k] = (long)c[k] >> shift;
       continue;
     }
+    const double lag = lag_of(cell->lags, sites[k]), more = lag - cell->lag;
+    const double shifted = ldexp(more, -2 * shift);
+    if (more + cell->lag != lag || lag - more != cell->lag || !(fabs(shifted) < 0x1p23) || shifted != trunc(shifted))
+      return false;
     const way_t way = {n[k].x >> shift, n[k].y >> shift, n[k].z >> shift};
-    n[k] = way;
-    constants[k] = way.x * way.x + way.y * way.y + way.z * way.z;
+    ways[k] = way;
+    constants[k] = way.x * way.x + way.y * way.y + way.z * way.z + (long)shifted;
   }
+  for (int k = 0; k < 4; ++k) n[k] = ways[k];
   for (int k = 0; k < 3; ++k) {
     const way_t q = n[k == 2 ? 0 : k + 1], r = n[k == 0 ? 2 : k - 1];
     const long x = q.y * r.z - q.z * r.y, y = q.z * r.x - q.x * r.z, z = q.x * r.y - q.y * r.x;
@@ -171,8 +201,18 @@ static inline int side_of(const cell_t* cell, int v, double4 plane, uint site, b
   }
   wide_t determinants[4];
   int side;
-  if (!narrow_side(n, c, sites, determinants, &side)) side = wide_side(n, c, sites, determinants);
+  if (!narrow_side(cell, n, c, sites, determinants, &side)) side = wide_side(cell, n, c, sites, determinants);
   if (side != 0 || is_plain) return side;
+  for (int of_lags = 0; of_lags < 2 && cell->lags != 0; ++of_lags) {
+    wide_t more[4];
+    for (int k = 0; k < 4; ++k) {
+      const bool is_site = sites[k] != NO_CELL;
+      more[k] = product(of_lags == 0 && !is_site ? -1 : 0, 1);
+      if (of_lags != 0 && is_site) more[k] = lag_beyond(cell, sites[k]);
+    }
+    const int sign = sign_of_sum(more, determinants);
+    if (sign != 0) return sign;
+  }
   // The weights of sites, the first one first.
   for (uint from = 0;;) {
     uint next = NO_CELL;
@@ -217,7 +257,7 @@ static inline void place_exactly(cell_t* cell, int v) {
   for (int k = 0; k < 3; ++k) {
     const double4 plane = cell->planes[of[k]];
     n[k] = way_of(plane);
-    c[k] = constant_of(n[k], plane.w, cell->sites[of[k]]);
+    c[k] = constant_of(cell, n[k], plane.w, cell->sites[of[k]]);
   }
   for (int k = 0; k < 3; ++k) {
     const way_t p = n[k == 2 ? 0 : k + 1], q = n[k == 0 ? 2 : k - 1];

@@ -179,6 +179,7 @@ void add_cells(CommandLine& line) {
            ".vtu")
       .value_name("FILE")
       .needs(exact);
+  add_weight_options(command, options->seeds, exact);
   command.set_work([command, options] {
     check_crs(options->seeds.crs, options->exact ? std::vector<std::string>{options->polygons}
                                                  : std::vector<std::string>{options->files.labels.path,

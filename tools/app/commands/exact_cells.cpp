@@ -27,8 +27,8 @@ std::vector<RequestedFile> requested_files(const ExactCellsOptions& options) {
           {"--polygons", options.polygons, polygon_extensions()}};
 }
 
-void print_result(const ExactCellsOptions& options, const Seeds& seeds, ExactCellRows& rows,
-                  const ExactCellsCheck& check, const Report& report) {
+void print_result(const ExactCellsOptions& options, const Seeds& seeds, const Input& input,
+                  ExactCellRows& rows, const ExactCellsCheck& check, const Report& report) {
   const Grid& grid = seeds.grid();
   const bool is_volume = grid.is_volume();
   std::vector<double> corners;
@@ -59,7 +59,8 @@ void print_result(const ExactCellsOptions& options, const Seeds& seeds, ExactCel
   print("exact cells: {} in {} in {:.1f} ms, on {}\n", counted(seeds.alive(), "seed"),
         fmt::format("{}", fmt::join(corners, ",")), report.milliseconds(), seeds.device().name());
   if (rows.empty_cells() > 0) {
-    print("{} without a cell: another one has the same place\n", counted(rows.empty_cells(), "seed"));
+    print("{} without a cell: another one has the same place{}\n", counted(rows.empty_cells(), "seed"),
+          input.values.numbers.empty() ? "" : ", or greater weights around it have its cell");
   }
   print("the mean {} is {:.6g}, with a deviation of {:.6g}\n", measure, rows.mean_area(),
         rows.area_deviation());
@@ -96,13 +97,13 @@ void run_exact_cells(const ExactCellsOptions& options) {
   const FinishAtEnd finish(device);
   const Seeds seeds = input.place(device);
   ExactCellsResult result;
-  const Report report = exact_cells(seeds, result);
+  const Report report = exact_cells(seeds, result, {input.values.numbers});
   ExactCellRows rows(seeds, result, input, options.seeds);
   if (cells) cells_table.write(*cells, rows);
   if (adjacency) exact_pairs_table(is_volume).write(*adjacency, rows);
   if (polygons) rows.write_polygons(*polygons);
   if (polygons) note_degrees(options, seeds.grid());
-  print_result(options, seeds, rows, result.check(), report);
+  print_result(options, seeds, input, rows, result.check(), report);
 }
 
 }  // namespace vorocl::command

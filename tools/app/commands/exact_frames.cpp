@@ -71,7 +71,7 @@ class ExactRun {
 
   void add(const Device& device, const Input& input) {
     const Seeds seeds = input.place(device);
-    const Report report = exact_cells(seeds, result_);
+    const Report report = exact_cells(seeds, result_, {input.values.numbers});
     ExactCellRows rows(seeds, result_, input, options_.seeds);
     if (frame_ % options_.every == 0) {
       cells_.add(rows, frame_, input.timestep.value_or(frame_));

@@ -274,9 +274,10 @@ void prepare_planes(SimulateOptions& options) {
 
 /// The cells of a trajectory without diagrams. Throws UsageError for options that say something of one.
 void run_exact(const Command& command, const SimulateOptions& options) {
-  const std::string others = command.given(
-      {"--exact", "--trajectory", "--frames", "--cells", "--cell-columns", "--adjacency", "--polygons",
-       "--every", "--bounds", "--y-up", "--y-down", "--periodic", "--outside", "--device", "--json"});
+  const std::string others =
+      command.given({"--exact", "--trajectory", "--frames", "--cells", "--cell-columns", "--adjacency",
+                     "--polygons", "--every", "--bounds", "--y-up", "--y-down", "--periodic", "--outside",
+                     "--weights", "--radius", "--device", "--json"});
   if (!others.empty()) {
     throw UsageError(others.substr(0, others.find_first_of(" \n")) +
                      " is not for --exact, which cuts the cells of a trajectory's own positions and makes no "
@@ -337,6 +338,7 @@ void add_simulate(CommandLine& line) {
            "of WKT) or .vtp (ParaView); polyhedra: .vtu")
       .value_name("FILES")
       .needs(exact);
+  add_weight_options(command, options->seeds, exact);
   command.set_work([command, options] {
     if (options->exact) return run_exact(command, *options);
     if (options->output.picture_path.empty()) refuse_picture_options(command, "-o");

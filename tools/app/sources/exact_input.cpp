@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <system_error>
 #include <utility>
@@ -36,6 +37,8 @@ bool is_volume(const SeedOptions& options) {
   const bool may_be_told = !options.bounds && !options.columns && !options.domain && options.mask.empty();
   const bool is_volume = is_told || (may_be_told && has_depth(options));
   is_volume ? check_volume_options(options) : check_seed_options(options, false);
+  if (!options.weight_column.empty() && options.points.empty() && options.trajectory.empty())
+    throw UsageError("--weights and --radius need --points or --trajectory");
   return is_volume;
 }
 
@@ -87,6 +90,24 @@ void note_points(const SeedOptions& options, const Grid& grid, const std::vector
                points.size(), {grid.x().from(), grid.y().from(), grid.x().to(), grid.y().to()});
 }
 
+/// Makes weights of the values of the column. Throws Error for one that is none.
+void make_weights(const SeedOptions& options, Input& input) {
+  const char* const what = options.are_radii ? "radius" : "weight";
+  if (!input.values.texts.empty()) {
+    throw Error(fmt::format("column {} has texts, such as \"{}\"; a {} is a number", options.weight_column,
+                            input.values.texts.front(), what));
+  }
+  for (std::size_t seed = 0; seed < input.values.numbers.size(); ++seed) {
+    double& weight = input.values.numbers[seed];
+    if (!std::isfinite(weight) || (options.are_radii && weight < 0)) {
+      throw Error(fmt::format("the {} of seed {} in column {} is {}; it must be {}", what,
+                              input.ids.empty() ? seed : input.ids[seed], options.weight_column, weight,
+                              options.are_radii ? "a number that is not negative" : "a finite number"));
+    }
+    if (options.are_radii) weight *= weight;
+  }
+}
+
 Input exact_input_from_points(const SeedOptions& options) {
   CsvPoints read = read_points(options);
   std::vector<Point>& points = read.points;
@@ -98,6 +119,8 @@ Input exact_input_from_points(const SeedOptions& options) {
     note_points(options, grid, points);
     Input input = input_of(options, options.points, grid, std::move(points), std::move(read.ids));
     input.kept = {std::move(read.kept_names), std::move(read.kept)};
+    input.values = std::move(read.values);
+    make_weights(options, input);
     return input;
   } catch (const Error& error) {
     throw Error(options.points + ": " + error.what());
@@ -141,6 +164,8 @@ Input ExactFrames::take() {
     }
     Input input = input_of(options_, options_.trajectory, grid, std::move(points), std::move(frame.ids));
     input.timestep = frame.timestep;
+    input.values = std::move(frame.values);
+    make_weights(options_, input);
     return input;
   } catch (const Error& error) {
     throw reader_.error(error);
@@ -152,7 +177,13 @@ Input read_exact_input(const SeedOptions& options) {
   if (is_volume(options)) {
     SeedOptions without_voxels = options;
     if (options.random == 0) without_voxels.size.reset();
-    return read_volume_input(without_voxels);
+    Input input = read_volume_input(without_voxels);
+    try {
+      make_weights(options, input);
+    } catch (const Error& error) {
+      throw Error(options.points + ": " + error.what());
+    }
+    return input;
   }
   if (!options.points.empty()) return exact_input_from_points(options);
   Input input = read_input(options);

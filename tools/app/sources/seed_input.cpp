@@ -121,10 +121,11 @@ CsvPoints read_points(const SeedOptions& options, bool has_z) {
 
 void refuse_csv_options(const SeedOptions& options) {
   if (extension_of(options.points) == ".csv") return;
-  const char* const given = options.columns         ? "--columns"
-                            : options.decimal_comma ? "--decimal"
-                            : !options.keep.empty() ? "--keep"
-                                                    : nullptr;
+  const char* const given = options.columns                  ? "--columns"
+                            : options.decimal_comma          ? "--decimal"
+                            : !options.keep.empty()          ? "--keep"
+                            : !options.weight_column.empty() ? options.are_radii ? "--radius" : "--weights"
+                                                             : nullptr;
   if (given != nullptr) throw UsageError(std::string(given) + " is for .csv files");
   if (!options.value_column.empty())
     throw UsageError("--color column:NAME is for .csv files and trajectories");

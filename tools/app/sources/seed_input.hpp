@@ -45,10 +45,13 @@ struct SeedOptions {
   bool decimal_comma = false;
   std::vector<std::string> keep;      // columns of points that tables of cells have too: see CsvOptions
   std::string value_column;           // whose values are read with the points
+  std::string weight_column;          // of exact cells; "": none
+  bool are_radii = false;             // weights are squares of that column
   std::optional<MeasureUnits> units;  // else those of the data, where there are bounds
   std::string keeps_inside;           // see note_outside()
 
-  CsvOptions csv() const { return {columns, value_column, decimal_comma, keep}; }
+  const std::string& read_column() const { return value_column.empty() ? weight_column : value_column; }
+  CsvOptions csv() const { return {columns, read_column(), decimal_comma, keep}; }
 
   /// What becomes of seeds within their pixels.
   Snap snapping() const {

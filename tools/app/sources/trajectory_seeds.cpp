@@ -82,7 +82,7 @@ std::vector<T> by_slot(const std::vector<T>& of_particles, const std::vector<std
 
 FrameReader::FrameReader(const SeedOptions& options, bool of_volume)
     : path_(options.trajectory),
-      reader_(open_trajectory(path_, options.value_column, of_volume ? Wanted::volume : Wanted::all)) {}
+      reader_(open_trajectory(path_, options.read_column(), of_volume ? Wanted::volume : Wanted::all)) {}
 
 bool FrameReader::next() {
   Read read = ahead_.valid() ? ahead_.get() : read_into(std::move(room_));

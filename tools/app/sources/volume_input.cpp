@@ -176,6 +176,7 @@ Input input_from_points(const SeedOptions& options) {
                    },
                    std::move(read.ids)};
     input.kept = {std::move(read.kept_names), std::move(read.kept)};
+    input.values = std::move(read.values);
     return input;
   } catch (const Error& error) {
     throw Error(options.points + ": " + error.what());
