@@ -54,6 +54,11 @@ Bounds parse_bounds(const std::string& text, bool of_volumes) {
            : "X0,Y0,X1,Y1: four numbers with X0 < X1 and Y0 < Y1"));
 }
 
+Axis data_axis(std::int64_t pixels, double low, double high, bool is_periodic, bool is_closed) {
+  const Axis axis(pixels, low, high);
+  return is_periodic ? axis.periodic() : is_closed ? axis.closed() : axis;
+}
+
 std::string to_string(const Bounds& bounds) {
   return fmt::format("{},{},{},{}", bounds.x0, bounds.y0, bounds.x1, bounds.y1);
 }

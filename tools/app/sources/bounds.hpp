@@ -22,6 +22,9 @@ Bounds parse_bounds(const std::string& text, bool of_volumes = false);
 
 std::string to_string(const Bounds& bounds);
 
+/// An axis of the data: a period, or closed where the bounds are those of points.
+Axis data_axis(std::int64_t pixels, double low, double high, bool is_periodic, bool is_closed);
+
 /// The axes by the names that --periodic and JSON give them.
 std::string to_string(Axes axes);
 

@@ -42,13 +42,6 @@ bool is_volume(const SeedOptions& options) {
   return is_volume;
 }
 
-/// The ends of an axis: those of `shown`, or of what repeats.
-Axis axis_of(double low, double high, bool is_periodic, bool is_closed) {
-  const Axis axis(1, low, high);
-  if (is_periodic) return axis.periodic();
-  return is_closed ? axis.closed() : axis;
-}
-
 /// `repeats` is what does along the periodic axes, with a tilt: bounds that are given must be the same there.
 Grid grid_of(const SeedOptions& options, const Bounds& repeats, Axes periodic, const char* name,
              double tilt = 0) {
@@ -62,8 +55,8 @@ Grid grid_of(const SeedOptions& options, const Bounds& repeats, Axes periodic, c
   check_bounds(shown, periodic);
   const bool closed =
       (!options.bounds && !options.domain) || options.outside.value_or(Outside::count) == Outside::refuse;
-  return Grid(axis_of(shown.x0, shown.x1, has_x(periodic), closed),
-              axis_of(shown.y0, shown.y1, has_y(periodic), closed))
+  return Grid(data_axis(1, shown.x0, shown.x1, has_x(periodic), closed),
+              data_axis(1, shown.y0, shown.y1, has_y(periodic), closed))
       .tilted(tilt);
 }
 

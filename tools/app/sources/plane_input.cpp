@@ -74,12 +74,9 @@ class SeedsHash {
 /// The plane with the bounds as its axes: whole periods, where it is periodic.
 Grid grid_of(const Bounds& bounds, const Grid& plane, bool y_up, bool closed) {
   check_bounds(bounds, plane.periodic());
-  const auto axis = [closed](std::int64_t pixels, double from, double to, bool periodic) {
-    const Axis open(pixels, from, to);
-    return periodic ? open.periodic() : closed ? open.closed() : open;
-  };
-  const Axis y = axis(plane.height(), bounds.y0, bounds.y1, plane.y().is_periodic());
-  return {axis(plane.width(), bounds.x0, bounds.x1, plane.x().is_periodic()), y_up ? y.reversed() : y};
+  const Axis y = data_axis(plane.height(), bounds.y0, bounds.y1, plane.y().is_periodic(), closed);
+  return {data_axis(plane.width(), bounds.x0, bounds.x1, plane.x().is_periodic(), closed),
+          y_up ? y.reversed() : y};
 }
 
 /// Reads the file a second time, and adds its points as they lie in the plane.
@@ -182,14 +179,7 @@ void check_plane_options(const PlaneInputOptions& options) {
     if (seeds.bounds) check_bounds(*seeds.bounds, options.plane().periodic());
     return;
   }
-  const char* const given = seeds.bounds                        ? "--bounds"
-                            : seeds.outside                     ? "--outside"
-                            : seeds.snap == Snap::to_pixels     ? "--snap"
-                            : seeds.snap == Snap::none          ? "--no-snap"
-                            : seeds.y_up                        ? "--y-up"
-                            : seeds.y_down                      ? "--y-down"
-                            : seeds.units == MeasureUnits::data ? "--units data"
-                                                                : nullptr;
+  const char* const given = option_of_data(seeds);
   if (given != nullptr) throw UsageError(std::string(given) + " needs --points");
   if (seeds.mask.empty()) options.plane();
 }

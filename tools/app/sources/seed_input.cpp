@@ -131,6 +131,19 @@ void refuse_csv_options(const SeedOptions& options) {
     throw UsageError("--color column:NAME is for .csv files and trajectories");
 }
 
+const char* option_of_data(const SeedOptions& options) {
+  return options.bounds                        ? "--bounds"
+         : options.outside                     ? "--outside"
+         : options.width != 0                  ? "--width"
+         : options.snap == Snap::to_pixels     ? "--snap"
+         : options.snap == Snap::none          ? "--no-snap"
+         : options.y_up                        ? "--y-up"
+         : options.y_down                      ? "--y-down"
+         : !options.value_column.empty()       ? "--color column:NAME"
+         : options.units == MeasureUnits::data ? "--units data"
+                                               : nullptr;
+}
+
 void check_seed_options(const SeedOptions& options, bool needs_size) {
   const char* const of_volumes = options.bounds && options.bounds->is_box() ? "--bounds with six numbers"
                                  : has_z(periodic_axes(options))            ? "--periodic with z"
@@ -150,16 +163,7 @@ void check_seed_options(const SeedOptions& options, bool needs_size) {
     throw UsageError(std::string("--size WxH or --width W is required with ") +
                      (options.points.empty() ? "--trajectory" : "--points"));
   }
-  const char* const given = options.bounds                        ? "--bounds"
-                            : options.outside                     ? "--outside"
-                            : options.width != 0                  ? "--width"
-                            : options.snap == Snap::to_pixels     ? "--snap"
-                            : options.snap == Snap::none          ? "--no-snap"
-                            : options.y_up                        ? "--y-up"
-                            : options.y_down                      ? "--y-down"
-                            : !options.value_column.empty()       ? "--color column:NAME"
-                            : options.units == MeasureUnits::data ? "--units data"
-                                                                  : nullptr;
+  const char* const given = option_of_data(options);
   if (given != nullptr) throw UsageError(std::string(given) + " needs --points or --trajectory");
 }
 

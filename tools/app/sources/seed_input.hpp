@@ -68,6 +68,9 @@ void snap_for(const Method& method, SeedOptions& options);
 
 constexpr const char* keeps_flooding_inside = "flooding cannot take, only exact diagrams can";
 
+/// The first option that was given of those that points and particles alone have; null: none.
+const char* option_of_data(const SeedOptions& options);
+
 /// What no parser can say: options that go with either of two others. Throws UsageError. `needs_size`: points
 /// and particles need pixels.
 void check_seed_options(const SeedOptions& options, bool needs_size = true);

@@ -36,8 +36,7 @@ bool has_axis(Axes axes, std::size_t axis) { return (static_cast<unsigned>(axes)
 /// Without a size it has few voxels, which do not count.
 Grid grid_of(const SeedOptions& options, const std::array<Side, 3>& sides, Axes periodic) {
   const auto axis = [&](std::int64_t voxels, std::size_t i) {
-    const Axis open(voxels, sides[i].low, sides[i].high);
-    return has_axis(periodic, i) ? open.periodic() : open.closed();
+    return data_axis(voxels, sides[i].low, sides[i].high, has_axis(periodic, i), true);
   };
   for (std::size_t i = 0; i < 3; ++i) {
     if (has_axis(periodic, i) && sides[i].low == sides[i].high) {
@@ -245,11 +244,7 @@ void check_volume_options(const SeedOptions& options) {
                                                                 : nullptr;
   if (of_planes != nullptr) refuse_in_volumes(of_planes);
   if (options.domain) throw UsageError("--domain is for planes; the periods of a volume are its --bounds");
-  const char* const of_data = options.bounds                        ? "--bounds"
-                              : options.snap == Snap::to_pixels     ? "--snap"
-                              : options.snap == Snap::none          ? "--no-snap"
-                              : options.units == MeasureUnits::data ? "--units data"
-                                                                    : nullptr;
+  const char* const of_data = option_of_data(options);
   if (of_data != nullptr && options.random > 0) {
     throw UsageError(std::string(of_data) + " needs --points or --trajectory");
   }
