@@ -136,6 +136,7 @@ BOOST_AUTO_TEST_CASE(what_masks_in_tiles_cannot_have_is_refused) {
           {"m.npy is 150 x 100 pixels and --size says 100 x 150"});
   refuses(folder, "tiles --mask m.npy --labels a.npy --threshold 255", failure,
           {"m.npy has no pixel that is greater than 255"});
+  refuses(folder, "tiles --mask m.zarr --labels a.npy", failure, {"m.zarr", "mask_tiles()"});
   refuses(folder, "tiles --mask m.npy --labels m.npy", usage, {"would replace the file that --mask reads"});
   refuses(folder, "tiles --random 5 --size 9x9 --threshold 1 --labels a.npy", usage,
           {"--threshold", "--mask"});

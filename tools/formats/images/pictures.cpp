@@ -65,6 +65,9 @@ class PictureRows : public ImageRows {
 
 std::unique_ptr<ImageRows> open_image(const std::string& path) {
   if (extension_of(path) == ".npy") return open_npy_image(path);
+  if (extension_of(path) == ".zarr")
+    throw Error(path +
+                ": arrays of Zarr are read in Python, by vorocl.mask_tiles(); here images and .npy are");
   std::ifstream file = open_to_read(path);
   std::vector<std::uint8_t> bytes;
   read_more(file, 16, bytes);  // looked at before the others, of which there may be many
