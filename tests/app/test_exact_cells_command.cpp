@@ -238,6 +238,13 @@ BOOST_AUTO_TEST_CASE(frames_of_a_trajectory_have_the_cells_of_each_frame) {
   BOOST_TEST(content_of(folder / "kept.csv") == expected);
 }
 
+BOOST_AUTO_TEST_CASE(without_a_box_the_particles_say_the_bounds) {
+  const TemporaryFolder folder;
+  folder.file("t.xyz", "2\n\nSi 1 2 3\nSi 4 6 3\n");
+  succeeds(folder, "cells --exact --trajectory t.xyz --cells c.csv --cell-columns area");
+  BOOST_TEST(content_of(folder / "c.csv") == "area\n6\n6\n");
+}
+
 BOOST_AUTO_TEST_CASE(what_exact_frames_cannot_do_is_refused_before_the_work) {
   const TemporaryFolder folder;
   folder.file("t.xyz", "1\nLattice=\"4 0 0 0 4 0 0 0 4\"\nA 1 1 0\n");

@@ -148,7 +148,7 @@ std::optional<Input> ExactFrames::next() { return skip() ? std::optional(take())
 
 Input ExactFrames::take() {
   Frame& frame = reader_.frame();
-  std::vector<Point> points = is_volume_ ? points_of(frame) : std::move(frame.positions);
+  std::vector<Point> points = is_volume_ ? points_of(frame) : frame.positions;
   try {
     const Grid grid = is_volume_ ? grid_of_frame(options_, frame, points) : grid_of_plane(options_, frame);
     if (std::exchange(is_first_, false)) {
