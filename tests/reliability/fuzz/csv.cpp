@@ -16,7 +16,7 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
         const auto is_whole = [&](std::size_t size, bool is_there) {
           return size == (is_there ? read.points.size() : 0);
         };
-        require(!read.points.empty() && is_whole(read.values.size(), !options.value_column.empty()) &&
+        require(!read.points.empty() && is_whole(read.values.numbers.size(), !options.value_column.empty()) &&
                 is_whole(read.kept.size(), !options.keep.empty()));
       });
     }

@@ -16,7 +16,7 @@ void read_all(const std::string& path, const std::string& column) {
     require(boxes->next(other) && frame.box.has_value() == other.box.has_value());
     if (frame.box) require(frame.box->x0 == other.box->x0 && frame.box->y1 == other.box->y1);
     require(frame.positions.size() == frame.ids.size());
-    require(frame.values.size() == (column.empty() ? 0 : frame.ids.size()));
+    require(frame.values.numbers.size() == (column.empty() ? 0 : frame.ids.size()));
     require(std::is_sorted(frame.ids.begin(), frame.ids.end()));
     if (frame.box) require(frame.box->x0 < frame.box->x1 && frame.box->y0 < frame.box->y1);
   }
