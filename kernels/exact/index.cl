@@ -11,8 +11,8 @@
 #include "core/plane.cl"
 #include "exact/sizes.cl"
 
-// Places are whole numbers of 2^-FRACTION_BITS pixels. With the build option VOROCL_FRACTIONS they come as such, else as
-// packed positions, at the centres of whose pixels seeds are, and a bit is enough.
+// Places are whole numbers of 2^-FRACTION_BITS pixels. With the build option VOROCL_FRACTIONS they come as such. Else
+// they come as packed positions of pixels, whose centres a single bit is enough for.
 #ifdef VOROCL_FRACTIONS
 #define FRACTION_BITS MOST_FRACTION_BITS
 typedef int2 given_t;

@@ -1,6 +1,6 @@
-// Exact diagrams in the vector shape: a work-item labels a region or a tile, from one list if few places are there, else
-// box by box. Lists are handed down: a box's list is what a greater box's list has for it. Where no list holds the
-// places, they follow each other in parts.
+// Exact diagrams in the vector shape: a work-item labels a region or a tile, from one list if few places are there,
+// else box by box. Lists are handed down: a box's list is what a greater box's list has for it. Where no list holds
+// the places, they follow each other in parts.
 
 #ifndef VOROCL_TILE_SIDES
 #define VOROCL_TILE_SIDES

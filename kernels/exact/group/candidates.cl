@@ -8,10 +8,10 @@
 
 #define SYNC() barrier(CLK_LOCAL_MEM_FENCE)
 
-// DOMINANCE. Seed a dominates seed b in a box if a wins, by distance and tie rule, at the box's four corners. Then a wins at
-// every pixel of the box, and b is no candidate there: for the Euclidean metric the difference of the two squared
-// distances is affine in the pixel, for the Manhattan metric it is the sum of a monotone function of x and one of y,
-// and both are greatest at a corner. A bin is dominated if already its point nearest to each corner is.
+// DOMINANCE. Seed a dominates seed b in a box if a wins, by distance and tie rule, at the box's four corners. Then a
+// wins at every pixel of the box, and b is no candidate there: for the Euclidean metric the difference of the two
+// squared distances is affine in the pixel, for the Manhattan metric it is the sum of a monotone function of x and one
+// of y, and both are greatest at a corner. A bin is dominated if already its point nearest to each corner is.
 //
 // DOMINATORS: the nearest seeds known to the centre of a patch and to its four corners, and their distances from the
 // four corners.
@@ -124,9 +124,9 @@ static inline void keep_candidates(local uint* kept, local uint* kept_count, int
   SYNC();
 }
 
-// RANKED: candidates in the order of the tie rule, with what their keys are made of. A KEY at a pixel holds, above, by how
-// much farther a candidate is than the base, and, in the lowest bits, its rank by the tie rule. The base is the seed
-// nearest to the patch's centre.
+// RANKED: candidates in the order of the tie rule, with what their keys are made of. A KEY at a pixel holds, above, by
+// how much farther a candidate is than the base, and, in the lowest bits, its rank by the tie rule. The base is the
+// seed nearest to the patch's centre.
 typedef struct {
   int4 term[MOST_RANKED];
   uint value[MOST_RANKED];

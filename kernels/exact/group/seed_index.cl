@@ -7,8 +7,8 @@
 #include "core/position.cl"
 
 // THE FRAME. Along a periodic axis the index covers a margin more at both ends, where the seeds of the other end stand
-// once more: their images. (In a short period there are several of a seed.) The margin is longer than half a period: the image that is
-// nearest to a pixel is in the frame. Positions and bins count from the frame's corner.
+// once more: their images. (In a short period there are several of a seed.) The margin is longer than half a period:
+// the image that is nearest to a pixel is in the frame. Positions and bins count from the frame's corner.
 static inline int margin_x(int width) { return PERIODIC_X * MARGIN(width); }
 static inline int margin_y(int height) { return PERIODIC_Y * MARGIN(height); }
 static inline int frame_width(int width) { return width + 2 * margin_x(width); }
