@@ -25,7 +25,8 @@ enum class Palette { viridis, turbo, greys, viridis_r, turbo_r, greys_r, okabe_i
 /// Whether a palette is one of classes, such as ids, and not one of quantities.
 VOROCL_API bool is_categorical(Palette palette);
 
-/// The values that the ends of a palette stand for, low <= high; values beyond get the colours of the ends.
+/// The values that the ends of a palette stand for, low <= high; values beyond get the colours of the ends,
+/// and of a categorical palette their own.
 /// Colours go by the values or, where the scale is logarithmic and low > 0, by their logarithms: values of 0
 /// or less are absent then. A logarithmic scale is for quantities: with a categorical palette it is a bad
 /// one.

@@ -100,7 +100,7 @@ class Bar {
       : colors_(bar.scale, bar.palette),
         ends_(with_blocks(bar)),
         place_(place),
-        point_(bar.open_ended ? place.width / 2 : 0) {}
+        point_(bar.open_ended && !is_categorical(bar.palette) ? place.width / 2 : 0) {}
 
   /// The row of a value.
   int row(double value) const {

@@ -104,7 +104,9 @@ cv::Vec3b Colors::operator()(double value) const {
   if (std::isnan(value) || (scale_.logarithmic && value <= 0)) return absent_grey;
   const double clamped = std::clamp(value, scale_.low, scale_.high);
   if (categorical_) {
-    const double remainder = std::fmod(std::round(clamped), table_.cols);
+    const double number =
+        std::isfinite(value) ? value : clamped;  // classes have colours beyond the scale, too
+    const double remainder = std::fmod(std::round(number), table_.cols);
     return table_(0, static_cast<int>(remainder < 0 ? remainder + table_.cols : remainder));
   }
   const double part = scale_.high > scale_.low ? part_of(clamped, scale_) : 0;

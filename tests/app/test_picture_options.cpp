@@ -165,6 +165,22 @@ BOOST_AUTO_TEST_CASE(texts_of_a_column_are_classes) {
   succeeds(folder, "simulate --method exact -o %d.png " + trajectory + "species");
   BOOST_TEST(same(cv::imread(folder / "0.png"), expected(1, 0)));
   BOOST_TEST(same(cv::imread(folder / "1.png"), expected(1, 2)));
+  // A palette that is stretched over the first picture's texts stays so.
+  const Result stretched =
+      run(folder, "simulate --method exact --palette turbo -o t%d.png " + trajectory + "species");
+  BOOST_TEST(
+      stretched.error.find("the first picture does not have Na: they have the colour of its last text") !=
+          std::string::npos,
+      stretched.error);
+  for (const int picture : {0, 1}) {
+    const Scale of_first = {0, 1};
+    BOOST_TEST(same(cv::imread(folder / fmt::format("t{}.png", picture)),
+                    color_by_value(labels, grid, {1, picture == 0 ? 0.0 : 2.0}, of_first, Palette::turbo)));
+  }
+  const Result barred =
+      run(folder, "simulate --method exact --color-bar -o b%d.png " + trajectory + "species");
+  BOOST_TEST(barred.error.find("does not have Na: they have colours, but no names") != std::string::npos,
+             barred.error);
   BOOST_TEST(same(render(folder, trajectory + "fixed"), expected(1, 0)));
 
   folder.file("p.csv", "x,y,kind\n2.5,5,Na\n7.5,5,\"C, 13\"\n2,5,\n2,4.9,3\n");  // 3 is a text here

@@ -18,15 +18,11 @@ namespace {
 
 /// The kernels' one function of an offset, and what it is for the Chebyshev metric.
 const std::string sum_of_both_axes =
-    "    return as_uint_n(convert_int_n(offset.even) * convert_int_n(factor.even) +                        "
-    "\\\n"
-    "                     convert_int_n(offset.odd) * convert_int_n(factor.odd));                          "
-    "\\\n";
+    "  return AS_UINT_V(CONVERT_INT_V(offset.even) * CONVERT_INT_V(factor.even) +\n"
+    "                   CONVERT_INT_V(offset.odd) * CONVERT_INT_V(factor.odd));\n";
 const std::string greater_one =
-    "    return as_uint_n(max(convert_int_n(offset.even) * convert_int_n(factor.even),                     "
-    "\\\n"
-    "                         convert_int_n(offset.odd) * convert_int_n(factor.odd)));                     "
-    "\\\n";
+    "  return AS_UINT_V(max(CONVERT_INT_V(offset.even) * CONVERT_INT_V(factor.even),\n"
+    "                       CONVERT_INT_V(offset.odd) * CONVERT_INT_V(factor.odd)));\n";
 
 /// From now on kernels are built with the Chebyshev metric in the place of the Manhattan one.
 void replace_manhattan_by_chebyshev(const TemporaryFolder& folder) {

@@ -1,6 +1,7 @@
 #include "app/outputs/painter.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -142,7 +143,7 @@ cv::Mat Painter::draw_plane(Measures& measures, const ColumnValues& values, cons
   picture = in_picture(picture, view, enlargement);
   if (options_.stamp) draw_text(picture, stamp);
   if (!options_.color_bar) return picture;
-  if (!scale_) throw Error("there is no value yet for the colour bar to show; give --scale LOW,HIGH");
+  if (!scale_) throw Error("there is no value for the colour bar to show; give --scale LOW,HIGH");
   return with_color_bar(
       picture, {*scale_, palette_, title_of(options_.color, view.units), whole_values_.value_or(false),
                 many_ || options_.scale.has_value(), values.texts});
@@ -208,10 +209,11 @@ cv::Mat Painter::color_by_text(Measures& measures, const ColumnValues& values) {
     print_note(fmt::format("{} has {} texts, and okabe-ito 8 colours, which recur; --palette turbo has more",
                            options_.color.column, texts));
   }
-  const Scale of_all = {0, static_cast<double>(texts - 1)};
-  if (!scale_) scale_ = of_all;  // the colour bar's; later texts have colours too
+  if (!scale_) scale_ = {0, static_cast<double>(texts - 1)};
+  late_texts_.assign(values.texts.begin() + static_cast<std::ptrdiff_t>(scale_->high) + 1,
+                     values.texts.end());
   whole_values_ = true;
-  return color_by_value(measures.labels(), measures.view().size().grid(), values.numbers, of_all, palette_);
+  return color_by_value(measures.labels(), measures.view().size().grid(), values.numbers, *scale_, palette_);
 }
 
 cv::Mat Painter::color_by_values(Measures& measures, const std::vector<double>& values) {
@@ -275,6 +277,13 @@ void Painter::watch(const std::vector<T>& values) {
 }
 
 void Painter::note_of_scale() const {
+  const bool have_colors = is_categorical(palette_);
+  if (!late_texts_.empty() && (options_.color_bar || !have_colors)) {
+    print_note(fmt::format("the first picture does not have {}: {}", fmt::join(late_texts_, ", "),
+                           have_colors ? "they have colours, but no names on the colour bar"
+                                       : "they have the colour of its last text, unlike with "
+                                         "--palette okabe-ito"));
+  }
   if (!is_beyond_) return;
   print_note(
       fmt::format("the colours are by the values of the first picture, {:.4g} to {:.4g}, and another has "

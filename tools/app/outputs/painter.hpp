@@ -62,7 +62,7 @@ class Painter {
   cv::Mat draw(Measures& measures, const ColumnValues& values, const std::string& stamp = "");
 
   /// Says on standard error, if the scale is the first picture's and another has more than half of its values
-  /// beyond it, which one holds all.
+  /// beyond it, which one holds all; or which texts the first picture does not have.
   void note_of_scale() const;
 
   /// Whether the next picture would be the same without those that were drawn before.
@@ -85,10 +85,11 @@ class Painter {
   bool many_;
   Palette palette_;
   std::optional<Scale> scale_;
-  std::optional<Scale> seen_;         // the range of all pictures
-  bool is_beyond_ = false;            // some picture's values are, of the scale
-  bool omission_noted_ = false;       // of what the scale leaves out, or of colours that recur
-  std::optional<bool> whole_values_;  // whether those of the first picture are
+  std::optional<Scale> seen_;            // the range of all pictures
+  bool is_beyond_ = false;               // some picture's values are, of the scale
+  bool omission_noted_ = false;          // of what the scale leaves out, or of colours that recur
+  std::optional<bool> whole_values_;     // whether those of the first picture are
+  std::vector<std::string> late_texts_;  // those that the first picture does not have
   std::optional<double> contour_interval_;
   std::vector<std::uint32_t> colored_ids_;  // those of the last picture, by label, and their colours
   std::vector<cv::Vec3b> colors_of_ids_;

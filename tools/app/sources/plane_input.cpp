@@ -119,8 +119,8 @@ PlaneFacts map_points(const SeedOptions& options, const Grid& plane, const Surve
   read_in_blocks(options.points, options.csv(), reading.slice, add);
   warn_of_scales(bounds, plane, "give a --size of the same shape");
   if (plane.periodic() != Axes::none && !options.bounds) {
-    print_note(fmt::format("the period is the bounding box of the points, {}; --bounds says another one",
-                           to_string(bounds)));
+    print_note(fmt::format("the period is the bounding box of the points{}, {}; --bounds says another one",
+                           options.margin > 0 ? " and its margin" : "", to_string(bounds)));
   }
   note_outside(reading.sum(points_outside), survey.points, bounds);
   const Units units =

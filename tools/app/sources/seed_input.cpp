@@ -48,8 +48,9 @@ Input plane_from_points(const SeedOptions& options) {
     const MappedPoints mapped = map_points(points, mapping, picture, read.ids);
     warn_of_scales(mapping.bounds, picture.grid());
     if (mapping.periodic != Axes::none && !options.bounds && !options.domain) {
-      print_note(fmt::format("the period is the bounding box of the points, {}; --domain says another one",
-                             to_string(mapping.bounds)));
+      print_note(fmt::format("the period is the bounding box of the points{}, {}; {} says another one",
+                             options.margin > 0 ? " and its margin" : "", to_string(mapping.bounds),
+                             options.margin > 0 ? "--bounds" : "--domain"));
     }
     note_outside(mapped.outside, points.size(), mapping.bounds, options.keeps_inside);
     return {mapped.view,
