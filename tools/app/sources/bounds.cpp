@@ -90,6 +90,7 @@ Bounds joined(const Bounds& a, const Bounds& b) {
 }
 
 Bounds widened(const Bounds& bounds, double percent) {
+  if (percent == 0) return bounds;  // whose sides may be infinite
   const double margin = std::max(bounds.x1 - bounds.x0, bounds.y1 - bounds.y0) * percent / 100;
   return {bounds.x0 - margin, bounds.y0 - margin, bounds.x1 + margin, bounds.y1 + margin};
 }
