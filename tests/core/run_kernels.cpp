@@ -257,11 +257,11 @@ void make_volumes_of_points(const Device& device) {
     for (int kind = 0; kind < 5; ++kind) {
       std::vector<Spot> seeds;
       const std::int64_t x = grid.width() * parts, y = grid.height() * parts, z = grid.depth() * parts;
-      for (std::int64_t i = 0; i < (kind == 0 ? 3 : 50); ++i) {
+      for (std::int64_t i = 0; i < (kind == 0 ? 3 : 150); ++i) {
         if (kind < 2) seeds.push_back({i * 7919 * 31 % x, i * 104729 % y, i * 1299709 % z});
         if (kind == 2) seeds.push_back({x / 3, y / 2, z / 2});
         if (kind == 3) seeds.push_back({i * 524287 % x, y / 2, z / 2});
-        const double u = 1 - static_cast<double>(i) / 25, angle = static_cast<double>(i) * 2.4;
+        const double u = 1 - static_cast<double>(i) / 75, angle = static_cast<double>(i) * 2.4;
         const auto away = [](double way) { return std::llround(2 * parts * way); };
         const double flat = std::sqrt(std::max(0.0, 1 - u * u));
         if (kind == 4)

@@ -14,6 +14,7 @@
 
 #include "exact_cells/hilbert_order.hpp"
 #include "fixture.hpp"
+#include "weights.hpp"
 
 using namespace vorocl;
 
@@ -442,17 +443,6 @@ BOOST_AUTO_TEST_CASE(small_sets_have_the_cells_of_rational_numbers) {
       }
     }
   }
-}
-
-/// Weights of all sizes beside so many squared steps, for which cells are empty or far from their points,
-/// too.
-std::vector<double> weights_of(std::size_t count, double unit) {
-  std::mt19937_64 random(21);
-  std::vector<double> weights;
-  for (std::size_t i = 0; i < count; ++i)
-    weights.push_back(std::nearbyint(
-        unit * std::ldexp(static_cast<double>(random() % 4096), -static_cast<int>(i % 5) - 11)));
-  return weights;
 }
 
 BOOST_AUTO_TEST_CASE(weighted_sets_have_the_cells_of_rational_numbers) {
