@@ -137,9 +137,45 @@ BOOST_AUTO_TEST_CASE(what_masks_in_tiles_cannot_have_is_refused) {
   refuses(folder, "tiles --mask m.npy --labels a.npy --threshold 255", failure,
           {"m.npy has no pixel that is greater than 255"});
   refuses(folder, "tiles --mask m.zarr --labels a.npy", failure, {"m.zarr", "mask_tiles()"});
-  refuses(folder, "tiles --mask m.npy --labels m.npy", usage, {"would replace the file that --mask reads"});
+  for (const std::string file : {"--labels", "--distance"})
+    refuses(folder, "tiles --mask m.npy " + file + " m.npy", usage,
+            {"would replace the file that --mask reads"});
   refuses(folder, "tiles --random 5 --size 9x9 --threshold 1 --labels a.npy", usage,
           {"--threshold", "--mask"});
+}
+
+BOOST_AUTO_TEST_CASE(distances_are_those_of_one_grid) {
+  std::vector<std::string> all(std::begin(planes), std::end(planes));
+  for (const std::string more :
+       {"", " --threshold 100", " --periodic xy", " --metric manhattan --periodic y"})
+    all.push_back("--mask m.npy" + more);
+  all.push_back("--points p.csv --size 90x60 --bounds 0,0,90,90");  // in pixels, which are no squares
+  for (const std::string& plane : all) {
+    const TemporaryFolder folder;
+    write_points_file(folder);
+    write_mask(folder);
+    run(folder, "cells " + plane + " --distance whole.npy");
+    for (const std::string tile : {"33", "4096"}) {
+      const Result result =
+          run(folder, "tiles " + plane + " --tile " + tile + " --distance tiles.npy --labels l.npy -o p.png");
+      BOOST_TEST((content_of(folder / "tiles.npy") == content_of(folder / "whole.npy")),
+                 plane << " in tiles of " << tile << "\n"
+                       << result.error);
+    }
+  }
+  // Alone, in a file that says where it lies, and gone on with.
+  const TemporaryFolder folder;
+  write_points_file(folder);
+  const std::string plane = "--points p.csv --size 80x60 --bounds 0,0,40,30 ";
+  const std::string tiles = "tiles " + plane + "--tile 16 --resume --distance ";
+  run(folder, "cells " + plane + "--distance whole.tif");
+  for (const std::string name : {"d.zarr/", "d.tif"})
+    BOOST_TEST(run(folder, tiles + name).out.find("wrote d.") != std::string::npos);
+  BOOST_TEST(content_of(folder / "d.tif").find(std::string("inf\0", 4)) != std::string::npos);
+  const cv::Mat whole = cv::imread(folder / "whole.tif", cv::IMREAD_UNCHANGED),
+                found = cv::imread(folder / "d.tif", cv::IMREAD_UNCHANGED);
+  BOOST_REQUIRE((found.size() == whole.size() && found.type() == CV_32F));
+  BOOST_TEST(cv::norm(whole, found, cv::NORM_INF) == 0);
 }
 
 BOOST_AUTO_TEST_CASE(tables_are_those_of_one_grid) {
@@ -308,8 +344,11 @@ BOOST_AUTO_TEST_CASE(what_makes_no_sense_is_refused) {
   refuses(folder, "tiles m.png --size 40x30 --labels a.npy", usage, {"for its seeds write --mask m.png"});
   refuses(folder, "tiles m.xyz --random 5 --size 40x30 --labels a.npy", usage, {"neither an option"});
   refuses(folder, random, usage, {"nothing to write", "--labels"});
-  refuses(folder, random + "--labels a.vti", usage, {"a.vti", ".npy, .zarr, .tif, .tiff"});
+  for (const std::string file : {"--labels", "--distance"})
+    refuses(folder, random + file + " a.vti", usage, {"a.vti", ".npy, .zarr, .tif, .tiff"});
   refuses(folder, random + "--labels a.npy -o a.gif", usage, {"a.gif", ".png"});
+  refuses(folder, random + "--labels a.npy --distance a.npy", usage,
+          {"--labels and --distance cannot write one file"});
   refuses(folder, random + "--labels a.tif -o a.tif", usage, {"--labels and -o cannot write one file"});
   refuses(folder, random + "--labels a.tif --tile 100", failure, {"multiples of 16, not 100"});
   refuses(folder, random + "--labels there.zarr", failure, {"there.zarr", "no Zarr array; remove it"});

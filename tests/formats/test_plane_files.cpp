@@ -39,7 +39,8 @@ std::vector<std::uint32_t> labels_of(const Window& tile) {
 WrittenTile write_tile(PlaneFile& file, const Tiling& tiling, std::uint64_t number) {
   const Window tile = tiling.tile(number);
   const std::vector<std::uint32_t> labels = labels_of(tile);
-  return file.write({number, tile, labels.data()});
+  // The same bits are distances: kinds of files differ in what they say of them.
+  return file.write({number, tile, labels.data(), reinterpret_cast<const float*>(labels.data())});
 }
 
 std::vector<std::uint64_t> numbers_of(const Tiling& tiling) {
@@ -48,8 +49,9 @@ std::vector<std::uint64_t> numbers_of(const Tiling& tiling) {
   return numbers;
 }
 
-void write_whole(const std::string& path, const Tiling& tiling, const std::vector<std::uint64_t>& numbers) {
-  const auto file = plane_file(path, tiling);
+void write_whole(const std::string& path, const Tiling& tiling, const std::vector<std::uint64_t>& numbers,
+                 PlaneValues values = PlaneValues::labels) {
+  const auto file = plane_file(path, tiling, values);
   file->open();
   for (const std::uint64_t number : numbers) write_tile(*file, tiling, number);
   file->finish();
@@ -171,6 +173,32 @@ BOOST_AUTO_TEST_CASE(tiff_files_hold_every_label) {
           static_cast<std::uint64_t>(y / down) * tiling.columns() + static_cast<std::uint64_t>(x / across);
       return tiles[number][static_cast<std::size_t>(y % down * across + x % across)];
     });
+  }
+}
+
+BOOST_AUTO_TEST_CASE(files_of_distances_are_those_of_labels_with_another_type) {
+  const auto replaced = [](std::string text, const std::string& from, const std::string& to) {
+    BOOST_REQUIRE(text.find(from) != std::string::npos);
+    return text.replace(text.find(from), from.size(), to);
+  };
+  for (const Tiling& tiling : tilings()) {
+    const TemporaryFolder folder;
+    for (const std::string end : {".npy", ".zarr", ".tif"}) {
+      write_whole(folder / "l" + end, tiling, numbers_of(tiling));
+      write_whole(folder / "d" + end, tiling, numbers_of(tiling), PlaneValues::distances);
+    }
+    BOOST_TEST((content_of(folder / "d.npy") == replaced(content_of(folder / "l.npy"), "<u4", "<f4")));
+    BOOST_TEST(content_of(folder / "d.zarr/.zarray") ==
+               replaced(replaced(content_of(folder / "l.zarr/.zarray"), "<u4", "<f4"), "4294967295",
+                        "\"Infinity\""));
+    if (tiling.window().width() % tiling.side() == 0)
+      BOOST_TEST(content_of(folder / "d.zarr/0.0") == content_of(folder / "l.zarr/0.0"));
+    TIFF* const file = TIFFOpen((folder / "d.tif").c_str(), "r");
+    BOOST_REQUIRE(file != nullptr);
+    std::uint16_t format = 0;
+    TIFFGetField(file, TIFFTAG_SAMPLEFORMAT, &format);
+    BOOST_TEST(format == SAMPLEFORMAT_IEEEFP);
+    TIFFClose(file);
   }
 }
 

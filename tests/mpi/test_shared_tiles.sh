@@ -21,14 +21,15 @@ awk 'BEGIN { srand(3); print "x,y"; for (i = 0; i < 60000; ++i) { a = 6.2831853 
 same() { # COUNTS ...: these options make the same files on these numbers of ranks
   local counts=$1
   shift
-  local files=(labels.npy map.png cells.csv pairs.csv)
-  "$commands/vorocl" tiles "$@" --labels labels.npy -o map.png --cells cells.csv --adjacency pairs.csv >/dev/null
+  local files=(labels.npy distances.npy map.png cells.csv pairs.csv)
+  "$commands/vorocl" tiles "$@" --labels labels.npy --distance distances.npy -o map.png --cells cells.csv \
+    --adjacency pairs.csv >/dev/null
   "$commands/vorocl" tiles "$@" --labels labels.zarr >/dev/null
   mkdir alone
   mv "${files[@]}" labels.zarr alone
   for count in $counts; do
-    "$ranks" "$count" "$commands/vorocl-mpi" tiles "$@" --labels labels.npy -o map.png --cells cells.csv \
-      --adjacency pairs.csv >log || fail "$count ranks, $*: failed"
+    "$ranks" "$count" "$commands/vorocl-mpi" tiles "$@" --labels labels.npy --distance distances.npy -o map.png \
+      --cells cells.csv --adjacency pairs.csv >log || fail "$count ranks, $*: failed"
     "$ranks" "$count" "$commands/vorocl-mpi" tiles "$@" --labels labels.zarr >>log || fail "$count ranks, $*: failed"
     for file in "${files[@]}" labels.zarr; do
       diff -r "$file" "alone/$file" >/dev/null || fail "$count ranks, $*: $file differs"
@@ -91,6 +92,7 @@ refused() { # MESSAGE COUNT ...: the options end the run with this message, once
 }
 refused 'cannot read missing.csv' 3 --points missing.csv --size 100x100 --labels x.npy
 refused 'take .zarr or .npy' 2 --random 10 --size 100x100 --labels x.tif
+refused 'take .zarr or .npy' 2 --random 10 --size 100x100 --distance x.tif
 refused 'nothing to write' 2 --random 10 --size 100x100
 if "$ranks" 1 "$commands/vorocl-mpi" >log 2>&1; then fail "no subcommand: was not refused"; fi
 grep -q '^vorocl-mpi: error: .*; see vorocl-mpi --help$' log || fail "no subcommand: $(cat log)"

@@ -19,7 +19,7 @@ const std::string plane = "tiles --random 3000 --size 700x500 --tile 64 ";
 
 const std::string subcommands[] = {
     plane + "--labels a.npy --cells c.csv --adjacency p.csv",
-    plane + "--labels a.zarr -o a.png --periodic xy",
+    plane + "--labels a.zarr --distance d.npy -o a.png --periodic xy",
     plane + "--labels a.tif --adjacency p.csv --only 100,30,699,499",
 };
 

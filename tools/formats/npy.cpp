@@ -291,6 +291,7 @@ std::string npy_header(const std::vector<std::size_t>& shape) {
 }
 
 template std::string npy_header<std::uint32_t>(const std::vector<std::size_t>&);
+template std::string npy_header<float>(const std::vector<std::size_t>&);
 
 void write_npy_points(const OutputFile& file, const std::vector<Point>& points) {
   std::vector<double> values;

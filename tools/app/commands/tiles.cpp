@@ -15,7 +15,8 @@ namespace {
 
 /// Makes the tiles that are still to be made. Throws Error if a signal comes before all are.
 TilesCourse make_tiles(const TilesOptions& options, const Device& device, const SeedSource& seeds,
-                       const Tiling& tiling, PlaneWriter& writer, const Interruption& interruption) {
+                       const Tiling& tiling, const Units& units, PlaneWriter& writer,
+                       const Interruption& interruption) {
   TilesCourse course;
   course.made_before = course.tiles = writer.made_before().size();
   const auto share = [&] { return static_cast<double>(course.tiles) / static_cast<double>(tiling.count()); };
@@ -34,8 +35,8 @@ TilesCourse make_tiles(const TilesOptions& options, const Device& device, const 
     throw Error("interrupted");
   };
   try {
-    exact_tiles(device, seeds, tiling, [&] { return writer.next(); }, write,
-                {options.metric, writer.cells()});
+    make_tiles(
+        options, device, seeds, tiling, [&] { return writer.next(); }, units, writer.cells(), write);
   } catch (const std::exception& error) {  // ours, or out of memory
     throw Error(message_of(error) + "; " + writer.kept());
   }
@@ -72,7 +73,7 @@ void run_tiles(TilesOptions options) {
   PlaneWriter writer(options.output, tiling, georeference(options, tiling), run_of(options, tiling));
   const auto [seeds, facts] = read_seeds(options.input, mask.get(), tiling.window().grid(), interruption);
   writer.begin(facts.name);
-  const TilesCourse course = make_tiles(options, device, *seeds, tiling, writer, interruption);
+  const TilesCourse course = make_tiles(options, device, *seeds, tiling, facts.units, writer, interruption);
   writer.finish(facts.units, [&, &known = facts] { return rows_of_seeds(options.input, known); });
   print_result(options, device, facts, tiling, course);
 }

@@ -55,12 +55,14 @@ void check_options(const TilesOptions& options) {
   const std::vector<RequestedFile> files = requested_files(output);
   check_outputs(files, options.input.seeds);
   if (std::all_of(files.begin(), files.end(), [](const RequestedFile& file) { return file.path.empty(); })) {
-    throw UsageError("nothing to write: give at least one of --labels, -o, --cells and --adjacency");
+    throw UsageError(
+        "nothing to write: give at least one of --labels, --distance, -o, --cells and --adjacency");
   }
   check_plane_options(options.input);
   if (!options.input.seeds.keep.empty() && output.cells.empty()) throw UsageError("--keep is for --cells");
-  if (options.crs && !(is_tiff_name(output.labels) && options.input.seeds.bounds)) {
-    throw UsageError("--crs is for --labels FILE.tif, with --bounds in its coordinates");
+  const bool has_tiff = is_tiff_name(output.labels) || is_tiff_name(output.distances);
+  if (options.crs && !(has_tiff && options.input.seeds.bounds)) {
+    throw UsageError("--crs is for --labels or --distance FILE.tif, with --bounds in its coordinates");
   }
 }
 
@@ -88,6 +90,10 @@ void add_tiles(CommandLine& line, const std::function<void(const TilesOptions&)>
            "Labels: a .npy file (uint32), a .zarr folder (Zarr version 2, a chunk per tile) or a .tif file "
            "(tiled BigTIFF; with --bounds a GeoTIFF)")
       .value_name("FILE");
+  command
+      .add("--distance", options->output.distances,
+           "Distances to the nearest seed, in files as labels: float32")
+      .value_name("FILE");
   add_keep_option(command, options->input.seeds);
   add_crs_option(command, options->crs, "a .tif file says");
   command
@@ -113,7 +119,8 @@ void add_tiles(CommandLine& line, const std::function<void(const TilesOptions&)>
   command.set_work([command, options, run] {
     options->run =
         "version " VOROCL_VERSION "\n" + command.given({"--resume", "--device", "--json", "--tile"});
-    options->output.labels = plane_path(options->output.labels);
+    for (std::string* const path : {&options->output.labels, &options->output.distances})
+      *path = plane_path(*path);
     check_options(*options);
     run(*options);
   });
@@ -160,6 +167,21 @@ std::optional<Georeference> georeference(const TilesOptions& options, const Tili
                        between(bounds->y0, bounds->y1, y_up ? height - window.y() : bottom, height)},
                       y_up,
                       options.crs};
+}
+
+void make_tiles(const TilesOptions& options, const Device& device, const SeedSource& seeds,
+                const Tiling& tiling, const NextTile& next, const Units& units, PlaneCells* cells,
+                const std::function<void(const TileLabels&)>& write) {
+  std::vector<float> distances;
+  const auto in_units = [&](TileLabels tile) {
+    if (tile.distances != nullptr) {
+      distances = units.lengths({tile.distances, tile.distances + tile.tile.pixels()});
+      tile.distances = distances.data();
+    }
+    write(tile);
+  };
+  exact_tiles(device, seeds, tiling, next, in_units,
+              {options.metric, cells, !options.output.distances.empty()});
 }
 
 void print_result(const TilesOptions& options, const Device& device, const PlaneFacts& seeds,

@@ -33,7 +33,7 @@ struct TilesOptions {
 /// Adds the subcommand, which checks its options and gives them to a function.
 void add_tiles(CommandLine& line, const std::function<void(const TilesOptions&)>& run);
 
-/// Whether labels of this name are written as a TIFF file.
+/// Whether a file of this name is written as a TIFF file.
 bool is_tiff_name(const std::string& path);
 
 /// The tiles that are asked for, on a device that is to make them. Throws Error if they are too many, or some
@@ -55,6 +55,11 @@ struct TilesCourse {
   double writing = 0;             // ... which is this, for each process
   int processes = 1;
 };
+
+/// Makes tiles by exact_tiles(), whose distances are in these units.
+void make_tiles(const TilesOptions& options, const Device& device, const SeedSource& seeds,
+                const Tiling& tiling, const NextTile& next, const Units& units, PlaneCells* cells,
+                const std::function<void(const TileLabels&)>& write);
 
 void print_result(const TilesOptions& options, const Device& device, const PlaneFacts& seeds,
                   const Tiling& tiling, const TilesCourse& course);

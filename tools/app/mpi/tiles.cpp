@@ -45,9 +45,9 @@ TilesOptions with_one_side(TilesOptions options, const Ranks& ranks, const Devic
 void check_files(const TilesOptions& options, const Ranks& ranks) {
   if (!options.input.seeds.mask.empty())
     throw UsageError("--mask is for vorocl tiles, one process that holds a bit for each pixel");
-  if (ranks.count > 1 && is_tiff_name(options.output.labels)) {
-    throw UsageError("--labels " + options.output.labels +
-                     ": one process alone can write a TIFF file; take .zarr or .npy");
+  for (const std::string& path : {options.output.labels, options.output.distances}) {
+    if (ranks.count > 1 && is_tiff_name(path))
+      throw UsageError(path + ": one process alone can write a TIFF file; take .zarr or .npy");
   }
 }
 
@@ -77,8 +77,8 @@ PlaneFacts read_slice(const TilesOptions& options, const Ranks& ranks, const Int
 
 /// Makes this rank's tiles. Throws Error if a signal comes before all are.
 TilesCourse make_tiles(const TilesOptions& options, const Ranks& ranks, const Device& device,
-                       const SharedSeeds& seeds, const Tiling& tiling, SharedPlaneWriter& writer,
-                       const Interruption& interruption) {
+                       const SharedSeeds& seeds, const Tiling& tiling, const Units& units,
+                       SharedPlaneWriter& writer, const Interruption& interruption) {
   std::vector<std::uint64_t> numbers;
   for (std::uint64_t number = 0; number < tiling.count(); ++number) {
     if (writer.made_before().count(number) == 0) numbers.push_back(number);
@@ -116,7 +116,7 @@ TilesCourse make_tiles(const TilesOptions& options, const Ranks& ranks, const De
     throw Error("interrupted");
   };
   try {
-    exact_tiles(device, seeds, tiling, next, write, {options.metric, writer.cells()});
+    make_tiles(options, device, seeds, tiling, next, units, writer.cells(), write);
     writer.end();
   } catch (const std::exception& error) {  // ours, or out of memory
     const std::string tile = writing_tile ? fmt::format(", writing tile {}", *writing_tile)
@@ -155,7 +155,8 @@ void run(const TilesOptions& given) {
   const PlaneFacts facts = read_slice(options, ranks, interruption, seeds);
   seeds.share();
   writer.begin(facts.name);
-  const TilesCourse course = make_tiles(options, ranks, device, seeds, tiling, writer, interruption);
+  const TilesCourse course =
+      make_tiles(options, ranks, device, seeds, tiling, facts.units, writer, interruption);
   writer.finish(facts.units, [&] { return rows_of_seeds(options.input, facts); });
   if (ranks.rank == 0) print_result(options, device, facts, tiling, course);
 }

@@ -30,6 +30,7 @@ std::unique_ptr<TileJournal> open_journal(const PlaneWriterOptions& options, con
 
 std::vector<RequestedFile> requested_files(const PlaneWriterOptions& options) {
   return {{"--labels", options.labels, plane_extensions()},
+          {"--distance", options.distances, plane_extensions()},
           {"-o", options.picture, picture_extensions()},
           {"--cells", options.cells, {".csv"}},
           {"--adjacency", options.adjacency, {".csv"}}};
@@ -42,7 +43,10 @@ void check_journal(const PlaneWriterOptions& options) {
 std::vector<std::unique_ptr<PlaneFile>> plane_files(const PlaneWriterOptions& options, const Tiling& tiling,
                                                     const std::optional<Georeference>& georeference) {
   std::vector<std::unique_ptr<PlaneFile>> files;
-  if (!options.labels.empty()) files.push_back(plane_file(options.labels, tiling, georeference));
+  if (!options.labels.empty())
+    files.push_back(plane_file(options.labels, tiling, PlaneValues::labels, georeference));
+  if (!options.distances.empty())
+    files.push_back(plane_file(options.distances, tiling, PlaneValues::distances, georeference));
   if (!options.picture.empty()) files.push_back(plane_map(options.picture, tiling));
   return files;
 }

@@ -1,4 +1,4 @@
-// What vorocl tiles writes: labels, a picture, tables; and how it goes on with an earlier run.
+// What vorocl tiles writes: labels, distances, a picture, tables; and how it goes on with an earlier run.
 #pragma once
 
 #include <cstdint>
@@ -20,6 +20,7 @@ constexpr double time_between_checkpoints = 10;
 
 struct PlaneWriterOptions {
   std::string labels;  // empty names: none
+  std::string distances;
   std::string picture;
   std::string cells;
   std::string adjacency;
@@ -32,7 +33,7 @@ std::vector<RequestedFile> requested_files(const PlaneWriterOptions& options);
 /// Whether the journal of an earlier run is there. Throws Error then, unless the run is to go on with that.
 void check_journal(const PlaneWriterOptions& options);
 
-/// The files that hold tiles: the labels' and the picture's, as far as they are asked for.
+/// The files that hold tiles, as far as they are asked for.
 std::vector<std::unique_ptr<PlaneFile>> plane_files(const PlaneWriterOptions& options, const Tiling& tiling,
                                                     const std::optional<Georeference>& georeference);
 

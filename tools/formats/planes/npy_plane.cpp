@@ -1,4 +1,4 @@
-// Labels as a NumPy array, in whose file each row of a tile has its place.
+// Labels or distances as a NumPy array, in whose file each row of a tile has its place.
 #include "formats/npy.hpp"
 #include "formats/planes/placed_file.hpp"
 #include "formats/planes/plane_file.hpp"
@@ -9,10 +9,13 @@ namespace {
 
 class NpyPlane : public PlaneFile {
  public:
-  NpyPlane(const std::string& path, const Tiling& tiling)
+  NpyPlane(const std::string& path, const Tiling& tiling, PlaneValues values)
       : window_(tiling.window()),
-        header_(npy_header<std::uint32_t>({size(window_.height()), size(window_.width())})),
-        file_(path, header_.size() + size(window_.width()) * size(window_.height()) * sizeof no_label) {}
+        values_(values),
+        header_((values == PlaneValues::labels
+                     ? npy_header<std::uint32_t>
+                     : npy_header<float>)({size(window_.height()), size(window_.width())})),
+        file_(path, header_.size() + bytes_of_values(tiling)) {}
 
   void open() override {
     file_.open();
@@ -28,12 +31,12 @@ class NpyPlane : public PlaneFile {
   void join() override { file_.join(); }
 
   WrittenTile write(const TileLabels& tile) override {
-    const auto width = size(tile.tile.width());
-    for (int row = 0; row < tile.tile.height(); ++row) {
+    const std::size_t row_bytes = size(tile.tile.width()) * sizeof no_label;
+    const char* values = static_cast<const char*>(values_of(tile, values_));
+    for (int row = 0; row < tile.tile.height(); ++row, values += row_bytes) {
       const std::size_t first =
           size(tile.tile.y() + row - window_.y()) * size(window_.width()) + size(tile.tile.x() - window_.x());
-      file_.write(header_.size() + first * sizeof no_label,
-                  tile.labels + static_cast<std::size_t>(row) * width, width * sizeof no_label);
+      file_.write(header_.size() + first * sizeof no_label, values, row_bytes);
     }
     return {tile.number, 0};
   }
@@ -46,14 +49,15 @@ class NpyPlane : public PlaneFile {
   void write_header() { file_.write(0, header_.data(), header_.size()); }
 
   Window window_;
+  PlaneValues values_;
   std::string header_;
   PlacedFile file_;
 };
 
 }  // namespace
 
-std::unique_ptr<PlaneFile> npy_plane(const std::string& path, const Tiling& tiling) {
-  return std::make_unique<NpyPlane>(path, tiling);
+std::unique_ptr<PlaneFile> npy_plane(const std::string& path, const Tiling& tiling, PlaneValues values) {
+  return std::make_unique<NpyPlane>(path, tiling, values);
 }
 
 }  // namespace vorocl::command

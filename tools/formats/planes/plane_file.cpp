@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstring>
 #include <filesystem>
 #include <iterator>
 
@@ -34,16 +35,16 @@ std::string plane_path(const std::string& name) {
   return extension_of(path) == ".zarr" ? path : name;
 }
 
-std::unique_ptr<PlaneFile> plane_file(const std::string& path, const Tiling& tiling,
+std::unique_ptr<PlaneFile> plane_file(const std::string& path, const Tiling& tiling, PlaneValues values,
                                       const std::optional<Georeference>& georeference) {
   check_extension(path, plane_extensions());
   const std::string extension = extension_of(path);
-  if (extension == ".npy") return npy_plane(path, tiling);
-  if (extension == ".zarr") return zarr_plane(path, tiling);
-  return tiff_plane(path, tiling, georeference);
+  if (extension == ".npy") return npy_plane(path, tiling, values);
+  if (extension == ".zarr") return zarr_plane(path, tiling, values);
+  return tiff_plane(path, tiling, values, georeference);
 }
 
-std::uint64_t label_bytes(const Tiling& tiling) { return tiling.window().pixels() * sizeof no_label; }
+std::uint64_t bytes_of_values(const Tiling& tiling) { return tiling.window().pixels() * sizeof no_label; }
 
 TileShape tile_shape(const Tiling& tiling, int unit) {
   const auto side_of = [&](std::int64_t pixels) {
@@ -52,14 +53,17 @@ TileShape tile_shape(const Tiling& tiling, int unit) {
   return {side_of(tiling.window().width()), side_of(tiling.window().height())};
 }
 
-std::vector<std::uint32_t> padded(const TileLabels& tile, const TileShape& shape) {
+std::vector<std::uint32_t> padded(const TileLabels& tile, PlaneValues values, const TileShape& shape) {
   const auto width = static_cast<std::size_t>(tile.tile.width()),
              length = static_cast<std::size_t>(shape.width);
-  std::vector<std::uint32_t> labels(length * static_cast<std::size_t>(shape.height), no_label);
-  for (std::size_t row = 0; row < static_cast<std::size_t>(tile.tile.height()); ++row) {
-    std::copy_n(tile.labels + row * width, width, labels.data() + row * length);
-  }
-  return labels;
+  constexpr std::uint32_t infinity = 0x7f800000;  // as a float
+  std::vector<std::uint32_t> padded(length * static_cast<std::size_t>(shape.height),
+                                    values == PlaneValues::labels ? no_label : infinity);
+  const char* const first = static_cast<const char*>(values_of(tile, values));
+  const std::size_t bytes = width * sizeof no_label;
+  for (std::size_t row = 0; row < static_cast<std::size_t>(tile.tile.height()); ++row)
+    std::memcpy(padded.data() + row * length, first + row * bytes, bytes);
+  return padded;
 }
 
 void require_space(const std::string& path, std::uint64_t bytes) {

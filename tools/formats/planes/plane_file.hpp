@@ -1,5 +1,5 @@
-// Files of the labels of a plane, tile by tile, by the extension of their name: .npy, .zarr, and .tif or
-// .tiff.
+// Files of the labels or the distances of a plane, tile by tile, by the extension of their name: .npy, .zarr,
+// and .tif or .tiff.
 #pragma once
 
 #include <cstdint>
@@ -12,6 +12,14 @@
 #include "vorocl/tiles.hpp"
 
 namespace vorocl::command {
+
+/// What a file has of each pixel of the tiles, in four bytes.
+enum class PlaneValues { labels, distances };
+
+/// That of a tile.
+inline const void* values_of(const TileLabels& tile, PlaneValues values) {
+  return values == PlaneValues::labels ? static_cast<const void*>(tile.labels) : tile.distances;
+}
 
 /// A tile that a file holds whole.
 struct WrittenTile {
@@ -54,7 +62,7 @@ class PlaneFile {
   virtual void finish() = 0;
 };
 
-/// The extensions of files that the labels of planes can be written to.
+/// The extensions of these files.
 const std::vector<std::string>& plane_extensions();
 
 /// The path that a name says: shells put a slash behind the names of folders, such as that of a .zarr.
@@ -65,10 +73,11 @@ std::string plane_path(const std::string& name);
 /// space (the least that is possible of those that are compressed), and if a .zarr folder would replace
 /// something that is no such array, or holds other files too. A link leads to what is replaced.
 std::unique_ptr<PlaneFile> plane_file(const std::string& path, const Tiling& tiling,
+                                      PlaneValues values = PlaneValues::labels,
                                       const std::optional<Georeference>& georeference = std::nullopt);
 
-/// The bytes of the labels of a tiling's window.
-std::uint64_t label_bytes(const Tiling& tiling);
+/// The bytes of the values of a tiling's window.
+std::uint64_t bytes_of_values(const Tiling& tiling);
 
 /// The tiles of a file whose tiles are all of one shape.
 struct TileShape {
@@ -79,8 +88,8 @@ struct TileShape {
 /// multiple of `unit`.
 TileShape tile_shape(const Tiling& tiling, int unit = 1);
 
-/// The labels of a tile in this shape, with no_label beyond its own.
-std::vector<std::uint32_t> padded(const TileLabels& tile, const TileShape& shape);
+/// The values of a tile in this shape, with no_label or infinity beyond its own.
+std::vector<std::uint32_t> padded(const TileLabels& tile, PlaneValues values, const TileShape& shape);
 
 /// Throws Error if the disk of the folder that holds the path has less space.
 void require_space(const std::string& path, std::uint64_t bytes);
@@ -89,9 +98,9 @@ void require_space(const std::string& path, std::uint64_t bytes);
 constexpr std::uint64_t greatest_compression = 1032;
 
 // Each kind of file, as plane_file() makes it.
-std::unique_ptr<PlaneFile> npy_plane(const std::string& path, const Tiling& tiling);
-std::unique_ptr<PlaneFile> zarr_plane(const std::string& path, const Tiling& tiling);
-std::unique_ptr<PlaneFile> tiff_plane(const std::string& path, const Tiling& tiling,
+std::unique_ptr<PlaneFile> npy_plane(const std::string& path, const Tiling& tiling, PlaneValues values);
+std::unique_ptr<PlaneFile> zarr_plane(const std::string& path, const Tiling& tiling, PlaneValues values);
+std::unique_ptr<PlaneFile> tiff_plane(const std::string& path, const Tiling& tiling, PlaneValues values,
                                       const std::optional<Georeference>& georeference);
 
 }  // namespace vorocl::command

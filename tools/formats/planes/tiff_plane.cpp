@@ -65,8 +65,9 @@ void unmap_content(thandle_t, void*, toff_t) {}
 
 class TiffPlane : public PlaneFile {
  public:
-  TiffPlane(const std::string& path, const Tiling& tiling, const std::optional<Georeference>& georeference)
-      : output_(path), tiling_(tiling), georeference_(georeference) {
+  TiffPlane(const std::string& path, const Tiling& tiling, PlaneValues values,
+            const std::optional<Georeference>& georeference)
+      : output_(path), tiling_(tiling), values_(values), georeference_(georeference) {
     output_.require_file("a TIFF file");
     if (tiling.side() % side_unit != 0) {
       throw Error(fmt::format("{}: the sides of a TIFF file's tiles are multiples of {}, not {}", path,
@@ -75,7 +76,7 @@ class TiffPlane : public PlaneFile {
     if (tiling.count() > 0xffffffffu) {
       throw Error(path + ": a TIFF file has at most 2^32 - 1 tiles; take larger ones");
     }
-    require_space(path, label_bytes(tiling) / greatest_compression);
+    require_space(path, bytes_of_values(tiling) / greatest_compression);
   }
 
   ~TiffPlane() override {
@@ -116,10 +117,10 @@ class TiffPlane : public PlaneFile {
   }
 
   WrittenTile write(const TileLabels& tile) override {
-    std::vector<std::uint32_t> labels = padded(tile, tile_shape(tiling_, side_unit));
+    std::vector<std::uint32_t> values = padded(tile, values_, tile_shape(tiling_, side_unit));
     const std::uint64_t begin = content_.end;
-    require(TIFFWriteEncodedTile(file_.get(), static_cast<std::uint32_t>(tile.number), labels.data(),
-                                 static_cast<tmsize_t>(labels.size() * sizeof no_label)) >= 0);
+    require(TIFFWriteEncodedTile(file_.get(), static_cast<std::uint32_t>(tile.number), values.data(),
+                                 static_cast<tmsize_t>(values.size() * sizeof no_label)) >= 0);
     return {tile.number, content_.end - begin};
   }
 
@@ -150,11 +151,12 @@ class TiffPlane : public PlaneFile {
     TIFFSetField(file, TIFFTAG_IMAGEWIDTH, static_cast<std::uint32_t>(tiling_.window().width()));
     TIFFSetField(file, TIFFTAG_IMAGELENGTH, static_cast<std::uint32_t>(tiling_.window().height()));
     const TileShape tile = tile_shape(tiling_, side_unit);
+    const bool are_labels = values_ == PlaneValues::labels;
     TIFFSetField(file, TIFFTAG_TILEWIDTH, static_cast<std::uint32_t>(tile.width));
     TIFFSetField(file, TIFFTAG_TILELENGTH, static_cast<std::uint32_t>(tile.height));
     TIFFSetField(file, TIFFTAG_BITSPERSAMPLE, 32);
     TIFFSetField(file, TIFFTAG_SAMPLESPERPIXEL, 1);
-    TIFFSetField(file, TIFFTAG_SAMPLEFORMAT, SAMPLEFORMAT_UINT);
+    TIFFSetField(file, TIFFTAG_SAMPLEFORMAT, are_labels ? SAMPLEFORMAT_UINT : SAMPLEFORMAT_IEEEFP);
     TIFFSetField(file, TIFFTAG_PHOTOMETRIC, PHOTOMETRIC_MINISBLACK);
     TIFFSetField(file, TIFFTAG_PLANARCONFIG, PLANARCONFIG_CONTIG);
     TIFFSetField(file, TIFFTAG_COMPRESSION, COMPRESSION_ADOBE_DEFLATE);
@@ -162,11 +164,13 @@ class TiffPlane : public PlaneFile {
     if (!georeference_) return;
     const Window& window = tiling_.window();
     require(write_georeference(file, *georeference_, static_cast<double>(window.width()),
-                               static_cast<double>(window.height()), std::to_string(no_label).c_str()));
+                               static_cast<double>(window.height()),
+                               are_labels ? std::to_string(no_label).c_str() : "inf"));
   }
 
   OutputFile output_;
   Tiling tiling_;
+  PlaneValues values_;
   std::optional<Georeference> georeference_;
   std::unique_ptr<GrowingFile> grown_;
   Content content_;
@@ -175,9 +179,9 @@ class TiffPlane : public PlaneFile {
 
 }  // namespace
 
-std::unique_ptr<PlaneFile> tiff_plane(const std::string& path, const Tiling& tiling,
+std::unique_ptr<PlaneFile> tiff_plane(const std::string& path, const Tiling& tiling, PlaneValues values,
                                       const std::optional<Georeference>& georeference) {
-  return std::make_unique<TiffPlane>(path, tiling, georeference);
+  return std::make_unique<TiffPlane>(path, tiling, values, georeference);
 }
 
 }  // namespace vorocl::command

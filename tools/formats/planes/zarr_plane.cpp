@@ -1,4 +1,4 @@
-// Labels as a Zarr array (version 2): a folder with a file for each tile, compressed by zlib.
+// Labels or distances as a Zarr array (version 2): a folder with a file for each tile, compressed by zlib.
 //
 // Nothing in the folder needs a temporary name: the folder has one until it is complete, and a tile that is
 // not known to be whole is written anew.
@@ -71,17 +71,18 @@ Error failed(const std::string& what, const std::string& path) {
 
 class ZarrPlane : public PlaneFile {
  public:
-  ZarrPlane(const std::string& path, const Tiling& tiling)
+  ZarrPlane(const std::string& path, const Tiling& tiling, PlaneValues values)
       : path_(target_of(path)),
         part_path_(path_ + ".part"),
         tiling_(tiling),
+        values_(values),
         chunk_shape_(tile_shape(tiling)) {
     if (!is_there(path_)) {
       OutputFile{path_};  // for its reasons where nothing can be made there
     } else {
       require_array(path_);
     }
-    if (!is_there(part_path_)) require_space(path_, label_bytes(tiling_) / greatest_compression);
+    if (!is_there(part_path_)) require_space(path_, bytes_of_values(tiling_) / greatest_compression);
   }
 
   ~ZarrPlane() override {
@@ -124,11 +125,11 @@ class ZarrPlane : public PlaneFile {
   WrittenTile write(const TileLabels& tile) override {
     // Compressing takes longer than making the tile.
     if (!workers_) workers_.emplace(most_workers);
-    workers_->add([labels = padded(tile, chunk_shape_), path = chunk(tile.number)] {
-      const auto bytes = static_cast<uLong>(labels.size() * sizeof no_label);
+    workers_->add([values = padded(tile, values_, chunk_shape_), path = chunk(tile.number)] {
+      const auto bytes = static_cast<uLong>(values.size() * sizeof no_label);
       uLongf size = compressBound(bytes);
       std::vector<Bytef> compressed(size);
-      if (compress2(compressed.data(), &size, reinterpret_cast<const Bytef*>(labels.data()), bytes,
+      if (compress2(compressed.data(), &size, reinterpret_cast<const Bytef*>(values.data()), bytes,
                     zlib_level) != Z_OK) {
         throw std::bad_alloc();  // all else that could go wrong is a wrong call
       }
@@ -173,11 +174,12 @@ class ZarrPlane : public PlaneFile {
   }
 
   void write_metadata() const {
+    const bool are_labels = values_ == PlaneValues::labels;
     const std::string text = fmt::format(
         R"({{
     "chunks": [{}, {}],
     "compressor": {{"id": "zlib", "level": {}}},
-    "dtype": "<u4",
+    "dtype": "{}",
     "fill_value": {},
     "filters": null,
     "order": "C",
@@ -185,7 +187,8 @@ class ZarrPlane : public PlaneFile {
     "zarr_format": 2
 }}
 )",
-        chunk_shape_.height, chunk_shape_.width, zlib_level, no_label, tiling_.window().height(),
+        chunk_shape_.height, chunk_shape_.width, zlib_level, are_labels ? "<u4" : "<f4",
+        are_labels ? std::to_string(no_label) : "\"Infinity\"", tiling_.window().height(),
         tiling_.window().width());
     write_file(folder_ + "/.zarray", text.data(), text.size());
   }
@@ -205,6 +208,7 @@ class ZarrPlane : public PlaneFile {
 
   std::string path_, part_path_;
   Tiling tiling_;
+  PlaneValues values_;
   TileShape chunk_shape_;
   std::string folder_;  // while it is written; empty: before, and afterwards
   std::optional<TemporaryName> name_;
@@ -214,8 +218,8 @@ class ZarrPlane : public PlaneFile {
 
 }  // namespace
 
-std::unique_ptr<PlaneFile> zarr_plane(const std::string& path, const Tiling& tiling) {
-  return std::make_unique<ZarrPlane>(path, tiling);
+std::unique_ptr<PlaneFile> zarr_plane(const std::string& path, const Tiling& tiling, PlaneValues values) {
+  return std::make_unique<ZarrPlane>(path, tiling, values);
 }
 
 }  // namespace vorocl::command
