@@ -33,8 +33,8 @@ DiagramState::DiagramState(const Device& device_of_diagram, const Window& window
       window(window_of_diagram),
       grid(window_of_diagram),
       labels(label_image),
-      own_labels_(label_image),
-      held_(bytes_of(grid)) {}
+      memory(device, "a diagram's working memory", bytes_of(grid)),
+      own_labels_(label_image) {}
 
 DiagramState::~DiagramState() { leave_host(); }
 
@@ -59,15 +59,6 @@ void DiagramState::put_labels_at(std::uint32_t* memory) {
     if (own_labels_() == nullptr) own_labels_ = allocate(device, bytes_of(grid), "the label image");
     labels = own_labels_;
   }
-}
-
-void DiagramState::reserve(cl::Buffer& buffer, std::size_t bytes) {
-  const std::size_t present = buffer() == nullptr ? 0 : size_of(buffer);
-  if (present > 0 && present >= bytes) return;
-  held_ -= present;
-  buffer = cl::Buffer();
-  buffer = allocate(device, bytes, "a diagram's working memory", held_);
-  held_ += size_of(buffer);
 }
 
 std::shared_ptr<const Placement> DiagramState::place(const Seeds& seeds) const {

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "core/seeds_frame.hpp"
+#include "runtime/buffer.hpp"
 #include "runtime/internal.hpp"
 #include "runtime/kernel.hpp"
 #include "runtime/stopwatch.hpp"
@@ -59,9 +60,8 @@ struct DiagramState {
     return *static_cast<Workspace*>(workspace.get());
   }
 
-  /// Makes a workspace's buffer have at least so many bytes. Throws Error, saying how much is needed and
-  /// there is, if the device cannot hold it besides what the diagram has.
-  void reserve(cl::Buffer& buffer, std::size_t bytes);
+  WorkingMemory memory;  // of all workspaces, beside the labels
+  void reserve(cl::Buffer& buffer, std::size_t bytes) { memory.reserve(buffer, bytes); }
 
   /// Where seeds lie in the window. Throws Error unless they have this device and its grid.
   std::shared_ptr<const Placement> place(const Seeds& seeds) const;
@@ -82,7 +82,6 @@ struct DiagramState {
 
   cl::Buffer own_labels_;          // where they are when they are not in the host's memory
   std::uint32_t* host_ = nullptr;  // where they are there
-  std::size_t held_;               // bytes of the labels and of all workspaces
   std::map<std::type_index, std::shared_ptr<void>> workspaces_;
 };
 

@@ -29,6 +29,8 @@ struct DistanceTransformState {
   ImageShape shape;
   WholeSizes whole;
   MaskEngine engine;
+  MaskWorkspace workspace;
+  WorkingMemory memory = {device, "a distance transform's working memory", 0};
   Marks marks;
   KernelSet kernels;
   bool has_image = false;
@@ -165,7 +167,8 @@ Report DistanceTransform::run(const ImageSource& image, const TransformTargets& 
   return with_host_memory(state.device, [&] {
     const cl::Event first = state.marks.mark(state.kernels, to.image, image.type(), options.marked);
     if (to.ranks() != nullptr) state.marks.rank(state.kernels);
-    const cl::Event last = state.engine.run(state.kernels, state.marks, to).last;
+    const cl::Event last =
+        state.engine.run(state.kernels, state.marks, to, state.workspace, state.memory).last;
     check(clFlush(state.device.queue()()), "starting a distance transform");
     if (buffers.is_on_host()) buffers.finish();
     state.has_image = true;

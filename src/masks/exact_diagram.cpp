@@ -11,6 +11,7 @@ namespace {
 
 /// The engine's working memory.
 struct PassesWorkspace {
+  MaskWorkspace buffers;
   std::optional<MaskEngine> engine;  // by the metric that was last asked for
   std::optional<Marks> seeds;
 };
@@ -52,13 +53,14 @@ Report exact_diagram_by_passes(Filling& filling, DiagramState& state) {
   NearestTargets targets;
   if (shows_marks(filling)) {
     targets.ranks = state.labels;
-    const auto [first, last] = engine.run(state.kernels, *filling.seeds().marks, targets);
+    const auto [first, last] =
+        engine.run(state.kernels, *filling.seeds().marks, targets, memory.buffers, state.memory);
     return filling.commit(0, first, last);
   }
   const cl::Event first = memory.seeds->paint(state.kernels, placement.grid, *placement.positions,
                                               filling.seeds().size, state.labels);
   targets.labels = state.labels;
-  const cl::Event last = engine.run(state.kernels, *memory.seeds, targets).last;
+  const cl::Event last = engine.run(state.kernels, *memory.seeds, targets, memory.buffers, state.memory).last;
   return filling.commit(0, first, add_outer_seeds(filling, state, last));
 }
 

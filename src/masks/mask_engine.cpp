@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "masks/items.hpp"
-#include "runtime/buffer.hpp"
 #include "runtime/has_doubles.hpp"
 // Last: it defines macros.
 #include "masks/sizes.cl"
@@ -100,15 +99,6 @@ MaskEngine::Pass MaskEngine::make_pass(int size, std::int64_t square, std::int64
   return pass;
 }
 
-void MaskEngine::reserve(cl::Buffer& buffer, std::size_t bytes) {
-  const std::size_t present = buffer() == nullptr ? 0 : size_of(buffer);
-  if (present > 0 && present >= bytes) return;
-  held_ -= present;
-  buffer = cl::Buffer();
-  buffer = allocate(device_, bytes, "the mask engine's working memory", held_);
-  held_ += size_of(buffer);
-}
-
 int MaskEngine::carried_for(const NearestTargets& targets) const {
   if (targets.labels() != nullptr) return CARRIES_LABELS;
   const int wanted = wanted_of(targets);
@@ -160,10 +150,10 @@ cl::Buffer MaskEngine::images_of(const NearestTargets& targets, int carried, boo
 }
 
 template <typename Run>
-Commands MaskEngine::run_pass(KernelSet& kernels, const Pass& pass, const char* name, std::size_t strips,
-                              Run run) {
+Commands MaskEngine::run_pass(KernelSet& kernels, const Pass& pass, const char* name, const cl::Buffer& flags,
+                              std::size_t strips, Run run) {
   const cl::Event first = pass.starts_far
-                              ? fill(device_, flags_, cl_uchar{1}, strips)
+                              ? fill(device_, flags, cl_uchar{1}, strips)
                               : run(mask_kernel(kernels, device_, name, {metric_}), pass.costs, false);
   if (!pass.saturates) return {first, first};
   const cl::Event last =
@@ -172,7 +162,8 @@ Commands MaskEngine::run_pass(KernelSet& kernels, const Pass& pass, const char* 
   return {first, last};
 }
 
-Commands MaskEngine::run(KernelSet& kernels, const Marks& marks, const NearestTargets& targets) {
+Commands MaskEngine::run(KernelSet& kernels, const Marks& marks, const NearestTargets& targets,
+                         MaskWorkspace& room, WorkingMemory& memory) {
   const auto width = static_cast<std::size_t>(shape_.width), height = static_cast<std::size_t>(shape_.height);
   const auto depth = static_cast<std::size_t>(shape_.depth);
   const std::size_t strips = static_cast<std::size_t>(STRIPS_OF(shape_.width)),
@@ -181,11 +172,11 @@ Commands MaskEngine::run(KernelSet& kernels, const Marks& marks, const NearestTa
   const std::size_t items_of_slices = std::min(items_, depth), items_of_strips = std::min(items_, strips);
   const std::size_t items = std::min(items_, is_volume ? longest : strips);
   const std::size_t bytes_of_keys = STRIP * (saturates ? sizeof(cl_long) : sizeof(cl_uint));
-  reserve(keys_, items * VECTORS_OF_KEYS(longest) * bytes_of_keys);
-  reserve(ints_, items * VECTORS_OF_INTS(longest) * bytes_of_ints);
-  reserve(flags_, strips * (is_volume ? longest : 1));
+  memory.reserve(room.keys, items * VECTORS_OF_KEYS(longest) * bytes_of_keys);
+  memory.reserve(room.ints, items * VECTORS_OF_INTS(longest) * bytes_of_ints);
+  memory.reserve(room.flags, strips * (is_volume ? longest : 1));
   const std::size_t of_columns = strips * SHORTS_OF_STRIP(height) * sizeof(cl_ushort);
-  reserve(columns_, of_columns * (is_volume ? items_of_slices : 1));
+  memory.reserve(room.columns, of_columns * (is_volume ? items_of_slices : 1));
   const int carried = carried_for(targets);
   const cl::Buffer near = images_of(targets, carried, false),
                    far = saturates ? images_of(targets, carried, true) : nothing_;
@@ -202,12 +193,12 @@ Commands MaskEngine::run(KernelSet& kernels, const Marks& marks, const NearestTa
     const cl::Event first = mask_kernel(kernels, device_, "nearest_in_rows")
                                 .in_groups_of(1)
                                 .over_items(std::min(items_, height), near, marks.bits, marks.counts,
-                                            columns_, given(targets.labels));
+                                            room.columns, given(targets.labels));
     const Commands in_strips =
-        run_pass(kernels, along_y_, "nearest_in_strips", strips,
+        run_pass(kernels, along_y_, "nearest_in_strips", room.flags, strips,
                  [&](Kernel& kernel, const cl::Buffer& costs, bool is_far) {
-                   return run_last(items_of_strips, kernel, is_far ? far : near, costs, keys_, ints_, flags_,
-                                   marks.bits, marks.counts, columns_);
+                   return run_last(items_of_strips, kernel, is_far ? far : near, costs, room.keys, room.ints,
+                                   room.flags, marks.bits, marks.counts, room.columns);
                  });
     return {first, in_strips.last};
   }
@@ -228,22 +219,22 @@ Commands MaskEngine::run(KernelSet& kernels, const Marks& marks, const NearestTa
     between = targets.values;
     step = holds(targets.type_of_values);
   } else {
-    reserve(between_, width * height * depth * word);
-    between = between_;
+    memory.reserve(room.between, width * height * depth * word);
+    between = room.between;
   }
-  reserve(slices_, depth * word);
-  const Commands in_slices =
-      run_pass(kernels, along_y_, "nearest_in_slices", strips * depth,
-               [&](Kernel& kernel, const cl::Buffer& costs, bool is_far) {
-                 return kernel.in_groups_of(1).over_items(items_of_slices, is_far ? far : near, costs, keys_,
-                                                          ints_, flags_, marks.bits, marks.counts, columns_,
-                                                          slices_, between, step, given(targets.labels));
-               });
+  memory.reserve(room.slices, depth * word);
+  const Commands in_slices = run_pass(kernels, along_y_, "nearest_in_slices", room.flags, strips * depth,
+                                      [&](Kernel& kernel, const cl::Buffer& costs, bool is_far) {
+                                        return kernel.in_groups_of(1).over_items(
+                                            items_of_slices, is_far ? far : near, costs, room.keys, room.ints,
+                                            room.flags, marks.bits, marks.counts, room.columns, room.slices,
+                                            between, step, given(targets.labels));
+                                      });
   const Commands along_z =
-      run_pass(kernels, along_z_, "nearest_along_z", strips * height,
+      run_pass(kernels, along_z_, "nearest_along_z", room.flags, strips * height,
                [&](Kernel& kernel, const cl::Buffer& costs, bool is_far) {
-                 return run_last(std::min(items_, height), kernel, is_far ? far : near, costs, keys_, ints_,
-                                 flags_, marks.bits, slices_, between, step);
+                 return run_last(std::min(items_, height), kernel, is_far ? far : near, costs, room.keys,
+                                 room.ints, room.flags, marks.bits, room.slices, between, step);
                });
   return {in_slices.first, along_z.last};
 }

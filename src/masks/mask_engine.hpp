@@ -6,6 +6,7 @@
 
 #include "masks/marks.hpp"
 #include "masks/pixel_sizes.hpp"
+#include "runtime/buffer.hpp"
 #include "runtime/kernel.hpp"
 
 namespace vorocl {
@@ -26,6 +27,11 @@ struct Commands {
   cl::Event first, last;
 };
 
+/// What engines, one after the other, work in.
+struct MaskWorkspace {
+  cl::Buffer keys, ints, flags, columns, slices, between;
+};
+
 class MaskEngine {
  public:
   MaskEngine(const Device& device, const ImageShape& shape, const PixelSize& size, const WholeSizes& whole,
@@ -35,7 +41,8 @@ class MaskEngine {
   Metric metric() const { return metric_; }
 
   /// Enqueues the passes. Throws Error if the device has too little memory.
-  Commands run(KernelSet& kernels, const Marks& marks, const NearestTargets& targets);
+  Commands run(KernelSet& kernels, const Marks& marks, const NearestTargets& targets, MaskWorkspace& room,
+               WorkingMemory& memory);
 
  private:
   struct Pass {
@@ -49,11 +56,10 @@ class MaskEngine {
   /// What passes carry for these targets (kernels/masks/sizes.cl).
   int carried_for(const NearestTargets& targets) const;
 
-  void reserve(cl::Buffer& buffer, std::size_t bytes);
-
   /// Runs a kernel by keys of 32 bits, and of 64 where these do not hold all.
   template <typename Run>
-  Commands run_pass(KernelSet& kernels, const Pass& pass, const char* name, std::size_t strips, Run run);
+  Commands run_pass(KernelSet& kernels, const Pass& pass, const char* name, const cl::Buffer& flags,
+                    std::size_t strips, Run run);
 
   cl::Buffer images_of(const NearestTargets& targets, int carried, bool is_far) const;
 
@@ -65,8 +71,7 @@ class MaskEngine {
   std::size_t items_;
   Pass along_y_, along_z_;
   std::int64_t most_in_slice_;  // of squared distances
-  cl::Buffer keys_, ints_, flags_, columns_, slices_, between_, nothing_;
-  std::size_t held_ = 0;
+  cl::Buffer nothing_;
 };
 
 }  // namespace vorocl

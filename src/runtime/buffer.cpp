@@ -52,6 +52,15 @@ cl::Buffer allocate_mappable(const Device& device, std::size_t bytes, const std:
   return make_buffer(device, CL_MEM_READ_WRITE | CL_MEM_ALLOC_HOST_PTR, bytes, purpose, 0);
 }
 
+void WorkingMemory::reserve(cl::Buffer& buffer, std::size_t bytes) {
+  const std::size_t present = buffer() == nullptr ? 0 : size_of(buffer);
+  if (present > 0 && present >= bytes) return;
+  held_ -= present;
+  buffer = cl::Buffer();
+  buffer = allocate(device_, bytes, purpose_, held_);
+  held_ += size_of(buffer);
+}
+
 bool shares_memory(const Device& device) {
   return device_info<cl_bool>(device.cl_device()(), CL_DEVICE_HOST_UNIFIED_MEMORY) == CL_TRUE;
 }

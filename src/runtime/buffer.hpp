@@ -34,6 +34,23 @@ cl::Buffer allocate_with(const Device& device, const std::vector<T>& values, con
 /// As above, where the host can map it without a copy.
 cl::Buffer allocate_mappable(const Device& device, std::size_t bytes, const std::string& purpose);
 
+/// Counts buffers that grow and are kept.
+class WorkingMemory {
+ public:
+  /// Of a purpose, beside bytes that are held already.
+  WorkingMemory(const Device& device, std::string purpose, std::size_t held)
+      : device_(device), purpose_(std::move(purpose)), held_(held) {}
+
+  /// Makes a buffer have at least so many bytes. Throws Error, saying how much is needed and there is, if the
+  /// device cannot hold it besides what is held.
+  void reserve(cl::Buffer& buffer, std::size_t bytes);
+
+ private:
+  Device device_;
+  std::string purpose_;
+  std::size_t held_;
+};
+
 /// Whether kernels and the host work in the same memory.
 bool shares_memory(const Device& device);
 

@@ -10,6 +10,7 @@
 
 #include "brute_force.hpp"
 #include "fixture.hpp"
+#include "runtime/buffer.hpp"
 #include "runtime/program.hpp"
 
 using namespace vorocl;
@@ -124,6 +125,21 @@ BOOST_AUTO_TEST_CASE(a_diagram_larger_than_the_device_is_refused) {
   if (grid.pixels() * 4 <= largest) return;  // nothing is too large for this device
   check_error([&] { Diagram(test_device(), grid); },
               {"too little device memory", "4096.0 MiB", "MiB in one buffer"});
+}
+
+BOOST_AUTO_TEST_CASE(working_memory_counts_what_is_held) {
+  constexpr std::size_t mebibyte = 1 << 20;
+  const std::size_t all = test_device().cl_device().getInfo<CL_DEVICE_GLOBAL_MEM_SIZE>();
+  WorkingMemory memory(test_device(), "a test", all - 3 * mebibyte);
+  cl::Buffer one, other;
+  memory.reserve(one, mebibyte);
+  memory.reserve(one, 2 * mebibyte);  // in place of the first
+  const cl_mem kept = one();
+  memory.reserve(one, mebibyte);
+  BOOST_TEST((one() == kept));
+  memory.reserve(other, mebibyte);
+  check_error([&] { memory.reserve(one, 3 * mebibyte); },
+              {"too little device memory for a test: it needs 3.0 MiB besides the ", " MiB in use"});
 }
 
 BOOST_AUTO_TEST_CASE(a_build_failure_shows_device_options_and_log) {
