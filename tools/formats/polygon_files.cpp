@@ -264,7 +264,7 @@ void write_polygons(const OutputFile& file, const std::vector<PolygonCell>& cell
 }
 
 void write_polyhedra(const OutputFile& file, const std::vector<PolygonCell>& cells,
-                     const std::vector<std::size_t>& numbers, const ExactPolyhedra& polyhedra,
+                     const std::vector<std::uint32_t>& numbers, const ExactPolyhedra& polyhedra,
                      const CsvFields& kept) {
   constexpr std::uint8_t type_of_polyhedra = 42;
   std::vector<double> points;

@@ -46,7 +46,7 @@ void write_polygons(const OutputFile& file, const std::vector<PolygonCell>& cell
 /// Cells of a volume, each with its number in the polyhedra, as .vtu with their volumes and the columns of
 /// the input that hold numbers alone. Throws Error if the file cannot be written.
 void write_polyhedra(const OutputFile& file, const std::vector<PolygonCell>& cells,
-                     const std::vector<std::size_t>& numbers, const ExactPolyhedra& polyhedra,
+                     const std::vector<std::uint32_t>& numbers, const ExactPolyhedra& polyhedra,
                      const CsvFields& kept);
 
 }  // namespace vorocl::command

@@ -25,6 +25,9 @@ struct CellsFiles {
   FileRequest distance = {distance_kind(), ""};
   FileRequest border = {border_kind(), ""};
   FileRequest labels = {labels_kind(), ""};
+  FileRequest polygons = {polygons_kind(), ""};  // of exact cells
+
+  std::vector<FileRequest> of_exact() const { return {cells, adjacency, polygons}; }
 
   /// Of a plane, or of a volume, which has no borders.
   std::vector<FileRequest> of(bool is_volume) const {
@@ -44,34 +47,10 @@ struct CellsOptions {
   CellsFiles files;
   bool json = false;
   bool exact = false;
-  std::string polygons;
 
   bool is_volume() const { return seeds.depth > 1; }
   std::vector<FileRequest> requests() const { return files.of(is_volume()); }
 };
-
-struct Output {
-  FileKind kind;
-  OutputFile file;
-};
-
-std::vector<RequestedFile> requested_files(const CellsOptions& options) {
-  std::vector<RequestedFile> files;
-  for (const FileRequest& request : options.requests()) files.push_back(requested(request));
-  return files;
-}
-
-std::vector<Output> open_outputs(const CellsOptions& options) {
-  check_outputs(requested_files(options), options.seeds);
-  std::vector<Output> outputs;
-  std::string all;
-  for (const FileRequest& request : options.requests()) {
-    all += (all.empty() ? "" : ", ") + request.kind.option;
-    if (!request.path.empty()) outputs.push_back({request.kind, OutputFile(request.path)});
-  }
-  if (outputs.empty()) throw UsageError("nothing to write: give at least one of " + all);
-  return outputs;
-}
 
 /// `beyond`: how many pixels are too far away, where that is asked for.
 void print_result(const CellsOptions& options, const Seeds& seeds, const Report& report,
@@ -108,7 +87,7 @@ void print_result(const CellsOptions& options, const Seeds& seeds, const Report&
         statistics.mean_area, statistics.area_deviation, view.units.area_title());
   if (!options.is_volume()) print("{}, ", counted(measures.vertices(), "vertex", "vertices"));
   print("{} of cells that touch\n", counted(measures.pair_count(), "pair"));
-  print_written(requested_files(options));
+  print_written(requested(options.requests()));
 }
 
 /// The cells without a diagram. Throws UsageError for options that say something of one.
@@ -121,13 +100,11 @@ void run_exact(const Command& command, const CellsOptions& options) {
   if (in_pixels(options.seeds)) {
     throw UsageError("--exact measures in the units of the data, and --units px says pixels");
   }
-  const CellsFiles& files = options.files;
-  run_exact_cells({options.seeds, options.device, files.cells.path, files.adjacency.path, options.polygons,
-                   files.cells.columns, options.json});
+  run_exact_cells({options.seeds, options.device, options.files.of_exact(), options.json});
 }
 
 void run(const CellsOptions& options) {
-  const std::vector<Output> outputs = open_outputs(options);
+  const std::vector<RequestedOutput> outputs = open_outputs(options.requests(), options.seeds);
   const Input input = read_input(options.seeds);
   check_max_distance(options.max_distance, input.view);
   const Device device = select_device(options.device);
@@ -140,7 +117,7 @@ void run(const CellsOptions& options) {
   MeasureBuffers buffers;
   Measures measures(seeds, diagram, input.ids, input.view, buffers);
   if (!input.kept.names.empty()) measures.keep(input.kept);
-  for (const Output& output : outputs) output.kind.write(output.file, measures);
+  for (const RequestedOutput& output : outputs) output.request.kind.write(output.file, measures);
   print_result(options, seeds, report, beyond, measures);
 }
 
@@ -173,15 +150,10 @@ void add_cells(CommandLine& line) {
       "--exact", options->exact,
       "Cut the cells as polygons, of points and particles with z as polyhedra, at the seeds' own places and "
       "without pixels: for --cells, --adjacency and --polygons, in the units of the data");
-  command
-      .add("--polygons", options->polygons,
-           "The polygons of --exact: .geojson, .csv (with a column of WKT) or .vtp (ParaView); polyhedra: "
-           ".vtu")
-      .value_name("FILE")
-      .needs(exact);
+  add_file_option(command, files.polygons).needs(exact);
   add_weight_options(command, options->seeds, exact);
   command.set_work([command, options] {
-    check_crs(options->seeds.crs, options->exact ? std::vector<std::string>{options->polygons}
+    check_crs(options->seeds.crs, options->exact ? std::vector<std::string>{options->files.polygons.path}
                                                  : std::vector<std::string>{options->files.labels.path,
                                                                             options->files.distance.path});
     if (options->exact) return run_exact(command, *options);

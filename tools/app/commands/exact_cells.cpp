@@ -4,9 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <nlohmann/json.hpp>
-#include <optional>
-#include <vector>
+#include <utility>
 
 #include "app/outputs/exact_cell_files.hpp"
 #include "app/outputs/output_files.hpp"
@@ -15,20 +15,13 @@
 #include "app/terminal/end_of_run.hpp"
 #include "app/terminal/selected_device.hpp"
 #include "formats/files.hpp"
-#include "formats/polygon_files.hpp"
 
 namespace vorocl::command {
 
 namespace {
 
-std::vector<RequestedFile> requested_files(const ExactCellsOptions& options) {
-  return {{"--cells", options.cells, {".csv"}},
-          {"--adjacency", options.adjacency, {".csv"}},
-          {"--polygons", options.polygons, polygon_extensions()}};
-}
-
-void print_result(const ExactCellsOptions& options, const Seeds& seeds, const Input& input,
-                  ExactCellRows& rows, const ExactCellsCheck& check, const Report& report) {
+void print_result(const ExactCellsOptions& options, const Seeds& seeds, ExactCellRows& rows,
+                  const ExactCellsCheck& check, const Report& report) {
   const Grid& grid = seeds.grid();
   const bool is_volume = grid.is_volume();
   std::vector<double> corners;
@@ -44,7 +37,7 @@ void print_result(const ExactCellsOptions& options, const Seeds& seeds, const In
                     {"device", seeds.device().name()},
                     {is_volume ? "box" : "rectangle", corners},
                     {"periodic", to_string(grid.periodic())},
-                    {"cells", rows.cells()},
+                    {"cells", rows.order().size()},
                     {"empty_cells", rows.empty_cells()},
                     {"mean_" + measure, rows.mean_area()},
                     {measure + "_deviation", rows.area_deviation()},
@@ -60,50 +53,46 @@ void print_result(const ExactCellsOptions& options, const Seeds& seeds, const In
         fmt::format("{}", fmt::join(corners, ",")), report.milliseconds(), seeds.device().name());
   if (rows.empty_cells() > 0) {
     print("{} without a cell: another one has the same place{}\n", counted(rows.empty_cells(), "seed"),
-          input.values.numbers.empty() ? "" : ", or greater weights around it have its cell");
+          rows.input().values.numbers.empty() ? "" : ", or greater weights around it have its cell");
   }
   print("the mean {} is {:.6g}, with a deviation of {:.6g}\n", measure, rows.mean_area(),
         rows.area_deviation());
   print("{} between cells\n", counted(rows.pair_count(), is_volume ? "face" : "edge"));
-  print_written(requested_files(options));
+  print_written(requested(options.files));
 }
 
 /// GeoJSON without a system means longitudes and latitudes, which readers take others for without a word.
-void note_degrees(const ExactCellsOptions& options, const Grid& grid) {
-  const std::string extension = extension_of(options.polygons);
+void note_degrees(const std::string& path, const SeedOptions& seeds, const Grid& grid) {
+  const std::string extension = extension_of(path);
   const bool is_geojson = extension == ".geojson" || extension == ".json";
   const double x = std::max(std::abs(grid.x().from()), std::abs(grid.x().to())),
                y = std::max(std::abs(grid.y().from()), std::abs(grid.y().to()));
-  if (options.seeds.points.empty() || options.seeds.crs || !is_geojson || (x <= 360 && y <= 180)) return;
+  if (seeds.points.empty() || seeds.crs || !is_geojson || (x <= 360 && y <= 180)) return;
   print_note(
-      options.polygons +
+      path +
       " says no coordinate reference system, so readers take its numbers for degrees; --crs EPSG:N says it");
 }
 
 }  // namespace
 
 void run_exact_cells(const ExactCellsOptions& options) {
-  check_outputs(requested_files(options), options.seeds);
-  const std::optional<OutputFile> cells = open_output(options.cells),
-                                  adjacency = open_output(options.adjacency),
-                                  polygons = open_output(options.polygons);
-  if (!cells && !adjacency && !polygons)
-    throw UsageError("nothing to write: give at least one of --cells, --adjacency, --polygons");
-  const Input input = read_exact_input(options.seeds);
-  const bool is_volume = input.view.is_volume();
-  check_polygons(options.polygons, is_volume);
-  const ExactTable cells_table = exact_cells_table(options.columns, is_volume);
+  std::vector<RequestedOutput> outputs = open_outputs(options.files, options.seeds);
+  Input input = read_exact_input(options.seeds);
+  for (RequestedOutput& output : outputs)
+    output.request = of_exact_cells(output.request, input.view.is_volume());
   const Device device = select_device(options.device);
   const FinishAtEnd finish(device);
   const Seeds seeds = input.place(device);
   ExactCellsResult result;
   const Report report = exact_cells(seeds, result, {input.values.numbers});
-  ExactCellRows rows(seeds, result, input, options.seeds);
-  if (cells) cells_table.write(*cells, rows);
-  if (adjacency) exact_pairs_table(is_volume).write(*adjacency, rows);
-  if (polygons) rows.write_polygons(*polygons);
-  if (polygons) note_degrees(options, seeds.grid());
-  print_result(options, seeds, input, rows, result.check(), report);
+  const auto rows = std::make_shared<ExactCellRows>(seeds, result, std::move(input), options.seeds);
+  MeasureBuffers buffers;
+  Measures measures(rows, buffers);
+  for (const RequestedOutput& output : outputs) {
+    output.request.kind.write(output.file, measures);
+    note_degrees(output.file.path(), options.seeds, seeds.grid());
+  }
+  print_result(options, seeds, *rows, result.check(), report);
 }
 
 }  // namespace vorocl::command

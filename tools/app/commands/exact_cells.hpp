@@ -4,15 +4,14 @@
 #include <string>
 #include <vector>
 
-#include "app/sources/seed_input.hpp"
+#include "app/outputs/diagram_files.hpp"
 
 namespace vorocl::command {
 
 struct ExactCellsOptions {
   SeedOptions seeds;
   std::string device;
-  std::string cells, adjacency, polygons;  // paths; empty: not asked for
-  std::vector<std::string> columns;        // of the cells, as they were chosen
+  std::vector<FileRequest> files;  // tables of cells and pairs, and polygons
   bool json = false;
 };
 

@@ -3,22 +3,20 @@
 
 #include <string>
 
-#include "app/outputs/diagram_files.hpp"
-#include "app/sources/moving_seeds.hpp"
+#include "app/outputs/frame_writer.hpp"
 
 namespace vorocl::command {
 
 struct ExactFramesOptions {
   SeedOptions seeds;
   std::string device;
-  FileRequest cells, adjacency;
-  std::string polygons;  // a pattern; empty: not asked for
+  FrameWriterOptions output;  // tables of cells and pairs, and polygons
   FrameRange frames;
-  int every = 1;  // of the numbered files
   bool json = false;
 };
 
-/// Frames that are complete are kept where a later one is bad, or a signal comes.
+/// Throws UsageError if nothing is to be written. Frames that are complete are kept where a later one is bad,
+/// or a signal comes.
 void run_exact_frames(const ExactFramesOptions& options);
 
 }  // namespace vorocl::command

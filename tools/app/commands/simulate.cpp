@@ -223,19 +223,7 @@ void run(const SimulateOptions& options) {
   run.pass_frames();
   run.make_frames();
   const Course& course = run.course();
-  std::string late;
-  try {
-    if (course.frames > 0) writer.finish();
-  } catch (const Error& error) {
-    if (course.trouble.empty()) throw;
-    late = fmt::format("; {}", error.what());
-  }
-  if (!course.trouble.empty()) {
-    const bool is_film = extension_of(options.output.picture_path) == film_extension;
-    const std::string more =
-        is_film ? "" : how_to_continue(options.motion.frames, course.frames, writer.has_tables());
-    throw Error(course.trouble + writer.progress() + more + late);
-  }
+  writer.end_run(course.trouble, options.motion.frames);
   note_of_last(options.seeds.trajectory, options.motion.frames, run.simulation().frame());
   print_result(options, *source, run.simulation(), course, *run.measures());
 }
@@ -283,13 +271,12 @@ void run_exact(const Command& command, const SimulateOptions& options) {
                      " is not for --exact, which cuts the cells of a trajectory's own positions and makes no "
                      "diagrams");
   }
-  const FileRequest &cells = options.output.files.at(1), &adjacency = options.output.files.at(2);
   if (options.seeds.trajectory.empty()) throw UsageError("--exact requires --trajectory");
-  if (cells.path.empty() && adjacency.path.empty() && options.polygons.empty()) {
-    throw UsageError("nothing to write: give at least one of --cells, --adjacency, --polygons");
-  }
-  run_exact_frames({options.seeds, options.device, cells, adjacency, options.polygons, options.motion.frames,
-                    options.output.every, options.json});
+  ExactFramesOptions exact = {options.seeds, options.device, options.output, options.motion.frames,
+                              options.json};
+  const std::vector<FileRequest>& files = options.output.files;
+  exact.output.files = {files.at(1), files.at(2), options.polygons};
+  run_exact_frames(exact);
 }
 
 }  // namespace
@@ -331,13 +318,7 @@ void add_simulate(CommandLine& line) {
                                    "as polyhedra, at the particles' own places "
                                    "and without pixels: for --cells, "
                                    "--adjacency and --polygons, in the units of the data");
-  command
-      .add("--polygons", options->polygons,
-           "The polygons of --exact, one file per frame, such as frames/%05d.vtp: .geojson, .csv (with a "
-           "column "
-           "of WKT) or .vtp (ParaView); polyhedra: .vtu")
-      .value_name("FILES")
-      .needs(exact);
+  add_file_option(command, options->polygons, true).needs(exact);
   add_weight_options(command, options->seeds, exact);
   command.set_work([command, options] {
     if (options->exact) return run_exact(command, *options);

@@ -26,8 +26,8 @@ struct SimulateOptions {
   FrameWriterOptions output;
   std::string device;
   bool json = false;
-  bool exact = false;    // cells as polygons, and no diagrams
-  std::string polygons;  // of these; empty: not asked for
+  bool exact = false;                            // cells as polygons, and no diagrams
+  FileRequest polygons = {polygons_kind(), ""};  // of these
 
   Metric other_metric() const { return compare_metric.value_or(method_options.metric); }
   bool other_is_exact() const {

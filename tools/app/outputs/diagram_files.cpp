@@ -10,9 +10,11 @@
 #include <string>
 #include <vector>
 
+#include "app/outputs/exact_cell_files.hpp"
 #include "app/outputs/table_rows.hpp"
 #include "formats/files.hpp"
 #include "formats/images/pictures.hpp"
+#include "formats/polygon_files.hpp"
 #include "formats/raster_files.hpp"
 
 namespace vorocl::command {
@@ -64,6 +66,50 @@ class CellRow {
   std::uint32_t label_;
 };
 
+/// An exact cell as its row in the same table. What a cell without vertices does not have is unknown.
+class ExactRow {
+ public:
+  ExactRow(Measures& measures, std::uint32_t seed)
+      : rows_(*measures.exact()), seed_(seed), cell_(rows_.cell(seed)) {}
+
+  double id() const { return rows_.id_of(seed_); }
+  double x() const { return rows_.point(seed_).x; }
+  double y() const { return rows_.point(seed_).y; }
+  double z() const { return rows_.point(seed_).z; }
+  double area() const { return cell_.area; }
+  double centroid_x() const { return if_full(cell_.centroid.x); }
+  double centroid_y() const { return if_full(cell_.centroid.y); }
+  double centroid_z() const { return if_full(cell_.centroid.z); }
+  double left() const { return extreme(&Point::x, false); }
+  double top() const { return extreme(&Point::y, rows_.y_up()); }
+  double front() const { return extreme(&Point::z, false); }
+  double right() const { return extreme(&Point::x, true); }
+  double bottom() const { return extreme(&Point::y, !rows_.y_up()); }
+  double back() const { return extreme(&Point::z, true); }
+  double perimeter() const { return cell_.perimeter; }
+  double neighbours() const { return cell_.neighbours; }
+  double largest_distance() const {
+    double found = RowText::unknown;
+    for (const Point& at : rows_.vertices(seed_))
+      found = std::fmax(found, std::hypot(at.x - x(), at.y - y(), at.z - z()));
+    return found;
+  }
+  double touches_border() const { return cell_.touches_border ? 1 : 0; }
+
+ private:
+  double extreme(double Point::*along, bool greatest) const {
+    double found = RowText::unknown;
+    for (const Point& vertex : rows_.vertices(seed_))
+      found = greatest ? std::fmax(found, vertex.*along) : std::fmin(found, vertex.*along);
+    return found;
+  }
+  double if_full(double value) const { return cell_.area > 0 ? value : RowText::unknown; }
+
+  ExactCellRows& rows_;
+  std::uint32_t seed_;
+  const ExactCell& cell_;
+};
+
 /// Reads what a value is made of for all labels, if it was not read before, and says where it lies for this
 /// one.
 using Source = const void* (*)(Measures& measures, std::uint32_t label);
@@ -81,19 +127,21 @@ constexpr Source seed = entry_of<std::optional<Point>, &Measures::seeds>,
 struct CellColumn {
   std::string name;
   CellsOf of;
-  Source source;
+  Source source;  // of a diagram's cells; those of shapes are of the vertices of exact ones
   /// Finds the values of the labels [begin, end).
   void (*find)(Measures& measures, const std::uint32_t* begin, const std::uint32_t* end, double* values);
 };
 
-template <Source source, double (CellRow::*value)() const>
+template <Source source, double (CellRow::*value)() const, double (ExactRow::*exact_value)() const>
 CellColumn column(const char* name, CellsOf of = CellsOf::both) {
   const auto find = [](Measures& measures, const std::uint32_t* begin, const std::uint32_t* end,
                        double* values) {
     constexpr std::ptrdiff_t ahead = 8;  // ids say nothing of where labels lie
+    const bool are_exact = measures.exact() != nullptr;
     for (const std::uint32_t* label = begin; label != end; ++label) {
-      if (end - label > ahead) __builtin_prefetch(source(measures, label[ahead]));
-      *values++ = (CellRow(measures, *label).*value)();
+      if (!are_exact && end - label > ahead) __builtin_prefetch(source(measures, label[ahead]));
+      *values++ =
+          are_exact ? (ExactRow(measures, *label).*exact_value)() : (CellRow(measures, *label).*value)();
     }
   };
   return {name, of, source, find};
@@ -101,30 +149,35 @@ CellColumn column(const char* name, CellsOf of = CellsOf::both) {
 
 const std::vector<CellColumn>& all_cell_columns() {
   static const std::vector<CellColumn> columns = {
-      column<seed, &CellRow::id>("id"),
-      column<seed, &CellRow::x>("x"),
-      column<seed, &CellRow::y>("y"),
-      column<seed, &CellRow::z>("z", CellsOf::volumes),
-      column<pixels, &CellRow::area>("area", CellsOf::planes),
-      column<pixels, &CellRow::area>("volume", CellsOf::volumes),
-      column<sums, &CellRow::centroid_x>("centroid_x"),
-      column<sums, &CellRow::centroid_y>("centroid_y"),
-      column<sums, &CellRow::centroid_z>("centroid_z", CellsOf::volumes),
-      column<shape, &CellRow::left>("left"),
-      column<shape, &CellRow::top>("top"),
-      column<shape, &CellRow::front>("front", CellsOf::volumes),
-      column<shape, &CellRow::right>("right"),
-      column<shape, &CellRow::bottom>("bottom"),
-      column<shape, &CellRow::back>("back", CellsOf::volumes),
-      column<perimeter, &CellRow::perimeter>("perimeter", CellsOf::planes),
-      column<perimeter, &CellRow::perimeter>("surface", CellsOf::volumes),
-      column<neighbours, &CellRow::neighbours>("neighbours"),
-      column<shape, &CellRow::largest_distance>("largest_distance"),
-      column<shape, &CellRow::touches_border>("touches_border")};
+      column<seed, &CellRow::id, &ExactRow::id>("id"),
+      column<seed, &CellRow::x, &ExactRow::x>("x"),
+      column<seed, &CellRow::y, &ExactRow::y>("y"),
+      column<seed, &CellRow::z, &ExactRow::z>("z", CellsOf::volumes),
+      column<pixels, &CellRow::area, &ExactRow::area>("area", CellsOf::planes),
+      column<pixels, &CellRow::area, &ExactRow::area>("volume", CellsOf::volumes),
+      column<sums, &CellRow::centroid_x, &ExactRow::centroid_x>("centroid_x"),
+      column<sums, &CellRow::centroid_y, &ExactRow::centroid_y>("centroid_y"),
+      column<sums, &CellRow::centroid_z, &ExactRow::centroid_z>("centroid_z", CellsOf::volumes),
+      column<shape, &CellRow::left, &ExactRow::left>("left"),
+      column<shape, &CellRow::top, &ExactRow::top>("top"),
+      column<shape, &CellRow::front, &ExactRow::front>("front", CellsOf::volumes),
+      column<shape, &CellRow::right, &ExactRow::right>("right"),
+      column<shape, &CellRow::bottom, &ExactRow::bottom>("bottom"),
+      column<shape, &CellRow::back, &ExactRow::back>("back", CellsOf::volumes),
+      column<perimeter, &CellRow::perimeter, &ExactRow::perimeter>("perimeter", CellsOf::planes),
+      column<perimeter, &CellRow::perimeter, &ExactRow::perimeter>("surface", CellsOf::volumes),
+      column<neighbours, &CellRow::neighbours, &ExactRow::neighbours>("neighbours"),
+      column<shape, &CellRow::largest_distance, &ExactRow::largest_distance>("largest_distance"),
+      column<shape, &CellRow::touches_border, &ExactRow::touches_border>("touches_border")};
   return columns;
 }
 
 void read_cells(const std::vector<CellColumn>& columns, Measures& measures) {
+  if (ExactCellRows* const exact = measures.exact()) {
+    const auto is_of_vertices = [](const CellColumn& column) { return column.source == shape; };
+    if (std::any_of(columns.begin(), columns.end(), is_of_vertices)) exact->read_vertices();
+    return;
+  }
   for (const CellColumn& column : columns) {
     if (column.source != pixels) column.source(measures, 0);
   }
@@ -151,6 +204,20 @@ void add_cells(const std::vector<CellColumn>& columns, GrowingFile& table, const
     }
   };
   add_pieces(table, first, measures.cells(), add);
+}
+
+void add_exact_pairs(GrowingFile& table, const std::string& first, Measures& measures) {
+  ExactCellRows& exact = *measures.exact();
+  if (exact.is_volume()) {
+    add_rows(table, first, exact.faces(), [&exact](RowText& text, const ExactFace& face) {
+      text.add(exact.id_of(face.a), exact.id_of(face.b), face.area, face.image[0], face.image[1],
+               face.image[2]);
+    });
+  } else {
+    add_rows(table, first, exact.pairs(), [&exact](RowText& text, const ExactPair& pair) {
+      text.add(exact.id_of(pair.a), exact.id_of(pair.b), pair.length, pair.midpoint.x, pair.midpoint.y);
+    });
+  }
 }
 
 void add_pairs(GrowingFile& table, const std::string& first, Measures& measures) {
@@ -269,6 +336,15 @@ const FileKind& border_kind() {
   return kind;
 }
 
+const FileKind& polygons_kind() {
+  static const FileKind kind = {
+      "--polygons",
+      "The polygons of --exact: .geojson, .csv (with a column of WKT) or .vtp (ParaView); polyhedra: .vtu",
+      polygon_extensions(), [](Measures& measures) { measures.exact()->read_vertices(); },
+      [](const OutputFile& file, Measures& measures) { measures.exact()->write_polygons(file); }};
+  return kind;
+}
+
 FileRequest of_grid(FileRequest request, bool is_volume) {
   FileKind& kind = request.kind;
   if (kind.table() != nullptr && kind.table()->of_cells) {
@@ -281,8 +357,48 @@ FileRequest of_grid(FileRequest request, bool is_volume) {
   return request;
 }
 
+FileRequest of_exact_cells(FileRequest request, bool is_volume) {
+  FileKind& kind = request.kind;
+  if (kind.table() == nullptr) {
+    check_polygons(request.path, is_volume);
+  } else if (kind.table()->of_cells) {
+    return of_grid(request, is_volume);
+  } else {
+    const std::vector<std::string> of_faces = {"a", "b", "area", "image_x", "image_y", "image_z"},
+                                   of_edges = {"a", "b", "length", "midpoint_x", "midpoint_y"};
+    kind.read = [](Measures& measures) { measures.exact()->pair_count(); };
+    kind.content = TableKind{is_volume ? of_faces : of_edges, add_exact_pairs};
+  }
+  return request;
+}
+
 RequestedFile requested(const FileRequest& request) {
   return {request.kind.option, request.path, request.kind.extensions};
+}
+
+std::vector<RequestedFile> requested(const std::vector<FileRequest>& requests) {
+  std::vector<RequestedFile> files;
+  for (const FileRequest& request : requests) files.push_back(requested(request));
+  return files;
+}
+
+void check_any(const std::vector<FileRequest>& files) {
+  std::string all;
+  for (const FileRequest& file : files) {
+    if (!file.path.empty()) return;
+    all += (all.empty() ? "" : ", ") + file.kind.option;
+  }
+  throw UsageError("nothing to write: give at least one of " + all);
+}
+
+std::vector<RequestedOutput> open_outputs(const std::vector<FileRequest>& files, const SeedOptions& seeds) {
+  check_outputs(requested(files), seeds);
+  check_any(files);
+  std::vector<RequestedOutput> outputs;
+  for (const FileRequest& file : files) {
+    if (!file.path.empty()) outputs.push_back({file, OutputFile(file.path)});
+  }
+  return outputs;
 }
 
 RequestedFile requested_of_frames(const FileRequest& request) {

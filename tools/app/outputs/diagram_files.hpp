@@ -54,6 +54,9 @@ const FileKind& distance_kind();
 /// The pixels at the borders of the cells: .npy, .png or .vti.
 const FileKind& border_kind();
 
+/// Polygons or polyhedra of exact cells: see polygon_files.hpp.
+const FileKind& polygons_kind();
+
 /// A file that the command line may ask for.
 struct FileRequest {
   FileKind kind;
@@ -68,8 +71,27 @@ struct FileRequest {
 /// chosen_columns().
 FileRequest of_grid(FileRequest request, bool is_volume);
 
+/// The same of exact cells: tables of them and of the edges or faces between two, a <= b, and polygons. A
+/// pair has the middle of its edge, or the image of b behind its face, of the points as rows of cells have
+/// them. Throws as chosen_columns(), and UsageError for a file of polygons that is to have polyhedra, or the
+/// other way round.
+FileRequest of_exact_cells(FileRequest request, bool is_volume);
+
+/// Throws UsageError, with the options that would do, if none of the files is asked for.
+void check_any(const std::vector<FileRequest>& files);
+
+/// A file that is asked for, to be written later.
+struct RequestedOutput {
+  FileRequest request;
+  OutputFile file;
+};
+
+/// After check_outputs(). Throws UsageError if none is asked for, Error if one cannot be made there.
+std::vector<RequestedOutput> open_outputs(const std::vector<FileRequest>& files, const SeedOptions& seeds);
+
 /// As check_outputs() takes it, for one diagram.
 RequestedFile requested(const FileRequest& request);
+std::vector<RequestedFile> requested(const std::vector<FileRequest>& requests);
 
 /// The same for many frames: the path is a pattern for one file per frame, but for that of a long table.
 RequestedFile requested_of_frames(const FileRequest& request);

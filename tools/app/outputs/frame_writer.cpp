@@ -162,4 +162,17 @@ void FrameWriter::finish() {
   if (first) std::rethrow_exception(first);
 }
 
+void FrameWriter::end_run(const std::string& trouble, const FrameRange& frames) {
+  std::string late;
+  try {
+    if (complete_ > 0) finish();
+  } catch (const Error& error) {
+    if (trouble.empty()) throw;
+    late = fmt::format("; {}", error.what());
+  }
+  if (trouble.empty()) return;
+  const std::string more = film_ ? "" : how_to_continue(frames, complete_, !tables_.empty());
+  throw Error(trouble + progress() + more + late);
+}
+
 }  // namespace vorocl::command

@@ -10,6 +10,7 @@
 #include "app/outputs/diagram_files.hpp"
 #include "app/outputs/frame_files.hpp"
 #include "app/outputs/painter.hpp"
+#include "app/sources/moving_seeds.hpp"
 #include "formats/images/film.hpp"
 #include "formats/numbered_files.hpp"
 #include "formats/workers.hpp"
@@ -80,9 +81,6 @@ class FrameWriter {
   /// The frames that are complete, once wait() has ended, also where it threw.
   int complete() const { return complete_; }
 
-  /// Whether rows of all frames go into one file.
-  bool has_tables() const { return !tables_.empty(); }
-
   /// "; frames complete before that: 3, written of them: 2", for the error that ended a run.
   std::string progress() const;
 
@@ -90,6 +88,10 @@ class FrameWriter {
   /// their names, and lists the numbered files. Throws Error if one could not be written whole; the others
   /// are.
   void finish();
+
+  /// finish(), of a run of these frames that ended in `trouble`, or in none ("") if it made all. Throws Error
+  /// that says what ended it, how far it came and what makes the others.
+  void end_run(const std::string& trouble, const FrameRange& frames);
 
  private:
   void open_files();

@@ -8,6 +8,7 @@
 #include <tuple>
 #include <utility>
 
+#include "app/outputs/exact_cell_files.hpp"
 #include "app/sources/bounds.hpp"
 #include "app/terminal/console.hpp"
 #include "formats/id_order.hpp"
@@ -68,6 +69,19 @@ Measures::Measures(const View& view, std::vector<std::uint32_t> labels,
       has_labels_(true),
       points_(std::move(seeds)) {
   images_.labels = std::move(labels);
+}
+
+Measures::Measures(std::shared_ptr<ExactCellRows> exact, MeasureBuffers& buffers)
+    : exact_(std::move(exact)),
+      seeds_(nullptr),
+      diagram_(nullptr),
+      metric_(Metric::euclidean),
+      ids_(exact_->input().ids),
+      view_(exact_->input().view),
+      buffers_(buffers),
+      images_(buffers.take_images()) {
+  view_.units = {};  // the data's, which tables need not name
+  if (!exact_->input().kept.names.empty()) keep(exact_->input().kept);
 }
 
 void Measures::leave_device() {
@@ -207,6 +221,7 @@ std::vector<double> Measures::areas() {
 }
 
 std::vector<std::uint32_t> Measures::cells() {
+  if (exact_) return exact_->order();
   const auto is_inside = [this, size = view_.size()](std::size_t label) {
     const std::optional<Point>& seed = seeds()[label];
     return seed && size.holds(*seed);

@@ -1,9 +1,10 @@
-// A diagram and all that is measured of it, by the ids that files have.
+// A diagram, or exact cells, and all that is measured of it, by the ids that files have.
 #pragma once
 
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -16,6 +17,8 @@
 #include "vorocl/method.hpp"
 
 namespace vorocl::command {
+
+class ExactCellRows;
 
 /// The images of one diagram on the host.
 struct HostImages {
@@ -63,6 +66,10 @@ class Measures {
   /// Those of labels and seeds that were read before, which are all that can be asked for.
   Measures(const View& view, std::vector<std::uint32_t> labels, std::vector<std::optional<Point>> seeds,
            const std::vector<std::uint32_t>& ids, MeasureBuffers& buffers);
+
+  /// Exact cells, which have ids, a view without pixels, kept columns and these measures alone.
+  Measures(std::shared_ptr<ExactCellRows> exact, MeasureBuffers& buffers);
+  ExactCellRows* exact() const { return exact_.get(); }
 
   /// Seeds and diagram may change from here on, and another thread may ask for what was read. What was not
   /// is an error.
@@ -129,7 +136,7 @@ class Measures {
   std::vector<double> areas();
 
   /// The labels of the cells, sorted by id: no absent seeds, and of those outside the diagram only those that
-  /// own pixels.
+  /// own pixels. Of exact cells in the order of ExactCellRows.
   std::vector<std::uint32_t> cells();
 
   /// By id, sorted by a and then b, a < b.
@@ -141,6 +148,7 @@ class Measures {
   const CellStatisticsResult& statistics_result();
   const AdjacencyResult& adjacency_result();
 
+  std::shared_ptr<ExactCellRows> exact_;
   const Seeds* seeds_;  // null, as the diagram: they may have changed
   const Diagram* diagram_;
   Metric metric_;
