@@ -261,23 +261,16 @@ std::unique_ptr<ImageRows> open_npy_image(const std::string& path) {
 }
 
 template <typename T>
-void write_npy(const OutputFile& file, const Size& size, const std::vector<T>& values) {
-  const auto height = static_cast<std::size_t>(size.height()), width = static_cast<std::size_t>(size.width());
-  write_array(file, {height, width}, values);
+void write_npy(const OutputFile& file, const Raster& raster, const std::vector<T>& values) {
+  std::vector<std::size_t> shape = {static_cast<std::size_t>(raster.size.height()),
+                                    static_cast<std::size_t>(raster.size.width())};
+  if (raster.is_volume()) shape.insert(shape.begin(), static_cast<std::size_t>(raster.depth));
+  write_array(file, shape, values);
 }
 
-template void write_npy(const OutputFile&, const Size&, const std::vector<std::uint8_t>&);
-template void write_npy(const OutputFile&, const Size&, const std::vector<std::uint32_t>&);
-template void write_npy(const OutputFile&, const Size&, const std::vector<float>&);
-
-template <typename T>
-void write_npy_volume(const OutputFile& file, const VolumeSize& size, const std::vector<T>& values) {
-  const auto side = [](std::int64_t voxels) { return static_cast<std::size_t>(voxels); };
-  write_array(file, {side(size.depth), side(size.height), side(size.width)}, values);
-}
-
-template void write_npy_volume(const OutputFile&, const VolumeSize&, const std::vector<std::uint32_t>&);
-template void write_npy_volume(const OutputFile&, const VolumeSize&, const std::vector<float>&);
+template void write_npy(const OutputFile&, const Raster&, const std::vector<std::uint8_t>&);
+template void write_npy(const OutputFile&, const Raster&, const std::vector<std::uint32_t>&);
+template void write_npy(const OutputFile&, const Raster&, const std::vector<float>&);
 
 template <typename T>
 std::string npy_header(const std::vector<std::size_t>& shape) {

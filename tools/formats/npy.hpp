@@ -40,15 +40,10 @@ bool holds_points_of_volume(const std::string& path);
 /// All points of such a file, at most 2^30.
 std::vector<Point> read_npy_points(const std::string& path, bool has_z = false);
 
-/// One value per pixel (uint8, uint32 or float), row-major, to an array of shape (height, width). Throws
-/// Error if the file cannot be written.
+/// One value per pixel (uint8, uint32 or float), row-major, to an array of shape (height, width), or of a
+/// volume slice after slice to (depth, height, width). Throws Error if the file cannot be written.
 template <typename T>
-void write_npy(const OutputFile& file, const Size& size, const std::vector<T>& values);
-
-/// One value per voxel (uint32 or float), slice after slice, to an array of shape (depth, height, width).
-/// Throws as above.
-template <typename T>
-void write_npy_volume(const OutputFile& file, const VolumeSize& size, const std::vector<T>& values);
+void write_npy(const OutputFile& file, const Raster& raster, const std::vector<T>& values);
 
 /// What stands before the values (uint8, uint32, float or double) of an array of this shape.
 template <typename T>

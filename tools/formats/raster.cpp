@@ -22,9 +22,9 @@ Size::Size(std::int64_t width, std::int64_t height)
   }
 }
 
-std::string to_string(const VolumeSize& size) {
-  const std::string slice = std::to_string(size.width) + " x " + std::to_string(size.height);
-  return size.depth > 1 ? slice + " x " + std::to_string(size.depth) : slice;
+std::string sides_of(const Grid& grid) {
+  const std::string slice = std::to_string(grid.width()) + " x " + std::to_string(grid.height());
+  return grid.is_volume() ? slice + " x " + std::to_string(grid.depth()) : slice;
 }
 
 }  // namespace vorocl::command

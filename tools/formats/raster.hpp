@@ -42,19 +42,8 @@ class Size {
   int width_, height_;
 };
 
-/// The sides of a volume in voxels.
-struct VolumeSize {
-  std::int64_t width, height, depth;
-
-  Grid grid() const { return {width, height, depth}; }
-
-  friend bool operator==(const VolumeSize& a, const VolumeSize& b) {
-    return a.width == b.width && a.height == b.height && a.depth == b.depth;
-  }
-};
-
-/// "64 x 32 x 16"; of one slice "64 x 32".
-std::string to_string(const VolumeSize& size);
+/// The sides in pixels: "64 x 32 x 16"; of one slice "64 x 32".
+std::string sides_of(const Grid& grid);
 
 /// A rectangle in data units, or a box.
 struct Bounds {
@@ -73,6 +62,8 @@ struct LabelImage {
   Size size;
   std::vector<std::uint32_t> labels;  // row-major, slice after slice
   std::int64_t depth = 1;             // of a volume more
+
+  Grid grid() const { return {size.width(), size.height(), depth}; }
 };
 
 /// How much each pixel of an image weighs.
@@ -95,20 +86,18 @@ struct Georeference {
   std::optional<Crs> crs;
 };
 
-/// The pixels of an image file, and where they lie in the data; without that these are in pixels.
+/// The pixels of an image file or the voxels of a volume's, and where they lie in the data; without that
+/// these are in pixels.
 struct Raster {
-  Raster(const Size& pixels) : size(pixels) {}
-  Raster(const Size& pixels, const Georeference& place) : size(pixels), georeference(place) {}
+  Raster(const Size& pixels, std::int64_t slices = 1) : size(pixels), depth(slices) {}
+  Raster(const Size& pixels, const Georeference& place, std::int64_t slices = 1)
+      : size(pixels), depth(slices), georeference(place) {}
 
-  Size size;
+  bool is_volume() const { return depth > 1; }
+
+  Size size;  ///< of a slice
+  std::int64_t depth;
   std::optional<Georeference> georeference = std::nullopt;
-};
-
-/// The voxels of a volume's file, and where they lie in the data.
-struct VolumeRaster {
-  VolumeSize size;
-  Point corner;  ///< of the first voxel, where the coordinates are least
-  Point voxel;   ///< its sides
 };
 
 }  // namespace vorocl::command

@@ -27,19 +27,6 @@ const std::vector<std::string>& volume_extensions() {
   return all;
 }
 
-template <typename T>
-void write_voxels(const OutputFile& file, const std::string& name, const VolumeRaster& raster,
-                  const std::vector<T>& values) {
-  check_extension(file.path(), volume_extensions());
-  extension_of(file.path()) == ".npy" ? write_npy_volume(file, raster.size, values)
-                                      : write_vti_volume(file, name, raster, values);
-}
-
-template void write_voxels(const OutputFile&, const std::string&, const VolumeRaster&,
-                           const std::vector<std::uint32_t>&);
-template void write_voxels(const OutputFile&, const std::string&, const VolumeRaster&,
-                           const std::vector<float>&);
-
 LabelImage read_labels(const std::string& path) {
   check_extension(path, readable_label_extensions());
   const std::unique_ptr<ImageRows> rows = open_image(path);
@@ -69,15 +56,14 @@ template <typename T>
 void write_pixels(const OutputFile& file, const std::string& name, const Raster& raster,
                   const std::vector<T>& values) {
   const std::string extension = extension_of(file.path());
+  check_extension(file.path(),
+                  raster.is_volume() || sizeof(T) < 4 ? volume_extensions() : label_extensions());
   if (extension == ".npy") {
-    write_npy(file, raster.size, values);
+    write_npy(file, raster, values);
   } else if (extension == ".vti") {
     write_vti(file, name, raster, values);
   } else if constexpr (sizeof(T) == 4) {
-    check_extension(file.path(), {".npy", ".tif", ".tiff", ".vti"});
     write_tiff(file, raster, values);
-  } else {
-    check_extension(file.path(), {".npy", ".vti"});
   }
 }
 

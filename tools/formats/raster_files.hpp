@@ -24,18 +24,12 @@ LabelImage read_labels(const std::string& path);
 /// The extensions of files that values of a volume can be written to.
 const std::vector<std::string>& volume_extensions();
 
-/// Values of a volume (uint32 or float), slice after slice; a .vti file calls them by the name, and alone
-/// knows where the voxels lie. Throws Error if the name ends in no such extension, or the file cannot be
-/// written.
-template <typename T>
-void write_voxels(const OutputFile& file, const std::string& name, const VolumeRaster& raster,
-                  const std::vector<T>& values);
-
 /// Throws Error if the name ends in no such extension, or the file cannot be written.
 void write_labels(const OutputFile& file, const Raster& raster, const std::vector<std::uint32_t>& labels);
 
-/// Values (uint8, uint32 or float), row-major; a .vti file calls them by the name, and with .tif files knows
-/// where the raster lies. Throws Error if the extension is none of these, or the file cannot be written.
+/// Values (uint8, uint32 or float), row-major, slice after slice; a .vti file calls them by the name, and
+/// with .tif files knows where the raster lies. Throws Error if the extension is none of these, or for
+/// volumes none of volume_extensions(), or the file cannot be written.
 template <typename T>
 void write_pixels(const OutputFile& file, const std::string& name, const Raster& raster,
                   const std::vector<T>& values);
@@ -53,17 +47,12 @@ ImageHeader read_tiff_header(const std::string& path);
 template <typename T>
 void write_tiff(const OutputFile& file, const Raster& raster, const std::vector<T>& values);
 
-/// One value per pixel (uint8, uint32 or float), row-major, as the cell data `name` of an image whose cells
-/// are the pixels: what is at (x, y) in the data, or in pixels, is there. The values are raw bytes at the
-/// file's end, in the host's byte order. Throws Error if the file cannot be written.
+/// One value per pixel (uint8, uint32 or float), row-major, slice after slice, as the cell data `name` of an
+/// image whose cells are the pixels: what is at (x, y, z) in the data, or in pixels, is there. The values are
+/// raw bytes at the file's end, in the host's byte order. Throws Error if the file cannot be written.
 template <typename T>
 void write_vti(const OutputFile& file, const std::string& name, const Raster& raster,
                const std::vector<T>& values);
-
-/// As above, one value per voxel (uint32 or float).
-template <typename T>
-void write_vti_volume(const OutputFile& file, const std::string& name, const VolumeRaster& raster,
-                      const std::vector<T>& values);
 
 /// A text as an attribute of XML.
 std::string escaped(const std::string& text);

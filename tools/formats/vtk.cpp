@@ -44,13 +44,16 @@ std::string escaped(const std::string& text) {
   return result;
 }
 
-namespace {
-
-/// What stands before the bytes of an image of values: where its cells lie.
 template <typename T>
-std::string start_of_image(const std::string& name, const std::string& extent, const Point& corner,
-                           const Point& cell) {
-  return fmt::format(
+void write_vti(const OutputFile& file, const std::string& name, const Raster& raster,
+               const std::vector<T>& values) {
+  const Size& size = raster.size;
+  const double width = size.width(), height = size.height(), depth = static_cast<double>(raster.depth);
+  const Georeference pixels = {{0, 0, width, height, 0, depth}, false, {}};
+  const auto& [bounds, y_up, crs] = raster.georeference ? *raster.georeference : pixels;
+  const std::uint64_t bytes = values.size() * sizeof(T);
+  GrowingFile image(file);
+  image << fmt::format(
       R"(<?xml version="1.0"?>
 <VTKFile type="ImageData" version="1.0" byte_order="{0}" header_type="UInt64">
   <ImageData WholeExtent="{1}" Origin="{4} {5} {6}" Spacing="{7} {8} {9}">
@@ -62,54 +65,16 @@ std::string start_of_image(const std::string& name, const std::string& extent, c
   </ImageData>
   <AppendedData encoding="raw">
     _)",
-      byte_order(), extent, name, vtk_type<T>, corner.x, corner.y, corner.z, cell.x, cell.y, cell.z);
-}
-
-constexpr const char* end_of_image = "\n  </AppendedData>\n</VTKFile>\n";
-
-}  // namespace
-
-template <typename T>
-void write_vti(const OutputFile& file, const std::string& name, const Raster& raster,
-               const std::vector<T>& values) {
-  const Size& size = raster.size;
-  const Georeference pixels = {
-      {0, 0, static_cast<double>(size.width()), static_cast<double>(size.height())}, false, {}};
-  const auto& [bounds, y_up, crs] = raster.georeference ? *raster.georeference : pixels;
-  const std::uint64_t bytes = values.size() * sizeof(T);
-  const std::size_t row_bytes = static_cast<std::size_t>(size.width()) * sizeof(T);
-  GrowingFile image(file);
-  image << start_of_image<T>(
-      name, fmt::format("0 {} 0 {} 0 0", size.width(), size.height()), {bounds.x0, bounds.y0, 0},
-      {(bounds.x1 - bounds.x0) / size.width(), (bounds.y1 - bounds.y0) / size.height(), 1});
+      byte_order(), fmt::format("0 {} 0 {} 0 {}", width, height, raster.is_volume() ? depth : 0), name,
+      vtk_type<T>, bounds.x0, bounds.y0, raster.is_volume() ? bounds.z0 : 0, (bounds.x1 - bounds.x0) / width,
+      (bounds.y1 - bounds.y0) / height, raster.is_volume() ? (bounds.z1 - bounds.z0) / depth : 1);
   image.write(&bytes, sizeof bytes);
-  for (int row = 0; row < size.height(); ++row) {
-    const std::ptrdiff_t of_picture = y_up ? size.height() - 1 - row : row;
-    const T* const first = values.data() + of_picture * size.width();
-    image.write(first, row_bytes);
-  }
-  image << end_of_image;
+  const std::size_t rows = y_up ? static_cast<std::size_t>(size.height()) : 1, count = values.size() / rows;
+  for (std::size_t row = rows; row-- > 0;) image.write(values.data() + row * count, count * sizeof(T));
+  image << "\n  </AppendedData>\n</VTKFile>\n";
   image.finish();
 }
 
-template <typename T>
-void write_vti_volume(const OutputFile& file, const std::string& name, const VolumeRaster& raster,
-                      const std::vector<T>& values) {
-  const VolumeSize& size = raster.size;
-  const std::uint64_t bytes = values.size() * sizeof(T);
-  GrowingFile image(file);
-  image << start_of_image<T>(name, fmt::format("0 {} 0 {} 0 {}", size.width, size.height, size.depth),
-                             raster.corner, raster.voxel);
-  image.write(&bytes, sizeof bytes);
-  image.write(values.data(), bytes);
-  image << end_of_image;
-  image.finish();
-}
-
-template void write_vti_volume(const OutputFile&, const std::string&, const VolumeRaster&,
-                               const std::vector<std::uint32_t>&);
-template void write_vti_volume(const OutputFile&, const std::string&, const VolumeRaster&,
-                               const std::vector<float>&);
 template void write_vti(const OutputFile&, const std::string&, const Raster&,
                         const std::vector<std::uint8_t>&);
 template void write_vti(const OutputFile&, const std::string&, const Raster&,

@@ -45,12 +45,10 @@ struct CompareOptions {
   }
 };
 
-VolumeSize size_of(const LabelImage& image) { return {image.size.width(), image.size.height(), image.depth}; }
-
-void check_sizes(const std::string& a, const VolumeSize& of_a, const std::string& b, const VolumeSize& of_b) {
+void check_sizes(const std::string& a, const Grid& of_a, const std::string& b, const Grid& of_b) {
   if (of_a == of_b) return;
   throw Error(fmt::format("{} is {} {} and {} is {}; only images of one size can be compared", a,
-                          to_string(of_a), of_a.depth > 1 ? "voxels" : "pixels", b, to_string(of_b)));
+                          sides_of(of_a), of_a.is_volume() ? "voxels" : "pixels", b, sides_of(of_b)));
 }
 
 struct Comparison {
@@ -70,7 +68,7 @@ Comparison compare(const std::vector<std::uint32_t>& a, const std::vector<std::u
 
 Comparison compare_files(const CompareOptions& options) {
   const LabelImage a = read_labels(options.a), b = read_labels(options.b);
-  check_sizes(options.a, size_of(a), options.b, size_of(b));
+  check_sizes(options.a, a.grid(), options.b, b.grid());
   return compare(a.labels, b.labels, a.depth > 1);
 }
 
@@ -112,8 +110,8 @@ Comparison compare_with_exact(const CompareOptions& options) {
   if (is_volume) check_volume_method(method("exact"), options.metric);
   const Input input = read_input(seed_options);
   const View& view = input.view;
-  check_sizes(options.a, size_of(image), "the diagram of the seeds",
-              {view.picture.size.width(), view.picture.size.height(), view.window.depth()});
+  check_sizes(options.a, image.grid(), "the diagram of the seeds",
+              {view.picture.size.width(), view.picture.size.height(), view.picture.depth});
 
   const Device device = select_device(options.device);
   const FinishAtEnd finish(device);

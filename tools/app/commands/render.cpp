@@ -60,7 +60,7 @@ Outputs open_outputs(const RenderOptions& options) {
   if (!options.waves_pattern.empty() && !options.method.plan) {
     throw UsageError("--waves: the method " + std::string(options.method.name) + " has no waves");
   }
-  if (options.is_volume()) check_slice(options.picture, options.picture_path, volume_size(options.seeds));
+  if (options.is_volume()) check_slice(options.picture, options.picture_path, volume_of(options.seeds));
   check_outputs(requested_files(options), options.seeds);
   if (options.draws()) check_picture_options(options.picture);
   Outputs outputs;

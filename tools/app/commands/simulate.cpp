@@ -247,7 +247,7 @@ void prepare_volumes(const Command& command, SimulateOptions& options) {
   if (command.has("--tolerance")) refuse_in_volumes("--tolerance");
   check_volume_method(options.method, options.method_options.metric);
   if (options.compare_with) check_volume_method(*options.compare_with, options.other_metric());
-  check_slice(options.output.picture, options.output.picture_path, volume_size(seeds));
+  check_slice(options.output.picture, options.output.picture_path, volume_of(seeds));
   choose_snap(options);
 }
 

@@ -6,9 +6,7 @@
 
 namespace vorocl::command {
 
-VolumeSize volume_size(const SeedOptions& seeds) {
-  return {seeds.size->width(), seeds.size->height(), seeds.depth};
-}
+Grid volume_of(const SeedOptions& seeds) { return {seeds.size->width(), seeds.size->height(), seeds.depth}; }
 
 void check_volume_method(const Method& method, Metric metric) {
   if (method.exact && metric == Metric::manhattan) {

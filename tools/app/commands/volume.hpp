@@ -13,7 +13,7 @@
 namespace vorocl::command {
 
 /// The volume that --size asks for.
-VolumeSize volume_size(const SeedOptions& seeds);
+Grid volume_of(const SeedOptions& seeds);
 
 /// Throws UsageError for a method that knows planes alone, or no such metric in volumes.
 void check_volume_method(const Method& method, Metric metric);

@@ -89,7 +89,7 @@ void add_slice_option(Command& command, PictureOptions& options);
 
 /// Throws UsageError unless there is a slice of a volume of these sides where there is a picture, and none
 /// where there is none, and for options of pictures that slices do not have.
-void check_slice(const PictureOptions& options, const std::string& picture_path, const VolumeSize& sides);
+void check_slice(const PictureOptions& options, const std::string& picture_path, const Grid& volume);
 
 /// Throws UsageError for options that contradict each other.
 void check_picture_options(const PictureOptions& options);

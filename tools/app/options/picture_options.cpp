@@ -113,14 +113,14 @@ void add_slice_option(Command& command, PictureOptions& options) {
       .in_section(pictures_section);
 }
 
-void check_slice(const PictureOptions& options, const std::string& picture_path, const VolumeSize& sides) {
+void check_slice(const PictureOptions& options, const std::string& picture_path, const Grid& volume) {
   const std::optional<VolumeSlice>& slice = options.slice;
   if (picture_path.empty()) {
     if (slice) throw UsageError("--slice is of the picture: give -o PICTURE");
     return;
   }
   if (!slice) throw UsageError("-o needs --slice z=K, the slice of the volume that it shows");
-  const std::int64_t slices = slices_along(sides.grid(), slice->axis);
+  const std::int64_t slices = slices_along(volume, slice->axis);
   if (slice->at >= slices) {
     throw UsageError(fmt::format("--slice {}={}: the volume has slices from 0 to {} there", slice->axis,
                                  slice->at, slices - 1));
@@ -135,7 +135,7 @@ void check_slice(const PictureOptions& options, const std::string& picture_path,
     throw UsageError(std::string(of_planes) + " is for planes: the picture of a slice shows ids");
   }
   check_picture_options(options);
-  check_picture_size(options, size_of_slice(sides.grid(), *slice));
+  check_picture_size(options, size_of_slice(volume, *slice));
 }
 
 void check_picture_options(const PictureOptions& options) {

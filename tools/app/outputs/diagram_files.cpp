@@ -22,9 +22,7 @@ namespace vorocl::command {
 namespace {
 
 void write_label_file(const OutputFile& file, Measures& measures) {
-  const View& view = measures.view();
-  view.is_volume() ? write_voxels(file, "label", view.voxels(), measures.labels_by_id())
-                   : write_labels(file, view.picture, measures.labels_in_picture());
+  write_labels(file, measures.view().picture, measures.labels_in_picture());
 }
 
 /// A cell as its row in a table: pixels of the picture, or voxels, in the view's units. What a cell without
@@ -230,7 +228,6 @@ void add_pairs(GrowingFile& table, const std::string& first, Measures& measures)
 void write_distance_file(const OutputFile& file, Measures& measures) {
   const View& view = measures.view();
   const std::vector<float> distances = view.units.lengths(measures.distances());
-  if (view.is_volume()) return write_voxels(file, "distance", view.voxels(), distances);
   std::vector<float> room;
   write_pixels(file, "distance", view.picture, view.in_picture(distances, INFINITY, room));
 }

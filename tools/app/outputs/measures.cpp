@@ -320,8 +320,9 @@ const char* unit_of_distances(const Grid& grid) {
 }
 
 std::string size_text(const View& view) {
-  const VolumeSize size = {view.picture.size.width(), view.picture.size.height(), view.window.depth()};
-  return fmt::format("{} {}s", to_string(size), name_of_pixel(view));
+  const Size& size = view.picture.size;
+  const Grid sides(size.width(), size.height(), view.picture.depth);
+  return fmt::format("{} {}s", sides_of(sides), name_of_pixel(view));
 }
 
 void print_diagram(const Method& method, const Seeds& seeds, const View& view, const Report& report) {

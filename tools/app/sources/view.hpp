@@ -71,9 +71,6 @@ class Units {
   double z(double pixels) const { return z_.at(pixels); }
   Point position(const Point& pixels) const { return {x(pixels.x), y(pixels.y), z(pixels.z)}; }
 
-  /// The sides of a pixel.
-  Point sides() const { return {x_.side_of_pixel(), y_.side_of_pixel(), z_.side_of_pixel()}; }
-
   /// Where an area ends: in pixels its last column, row or slice, in data units the edge behind that.
   double x_end(double last) const { return x_.at(last + behind()); }
   double y_end(double last) const { return y_.at(last + behind()); }
@@ -93,6 +90,8 @@ class Units {
     for (float& length : pixels) length = static_cast<float>(this->length(static_cast<double>(length)));
     return pixels;
   }
+
+  bool are_of_data() const { return area_in_data_; }
 
   /// "data" or "px"; of lengths in a volume whose axes are spaced "spacing 1:1:4".
   const char* of_area() const { return area_in_data_ ? "data" : "px"; }
@@ -177,12 +176,6 @@ struct View {
   bool fills_picture() const { return size() == picture.size; }
 
   bool is_volume() const { return window.grid().is_volume(); }
-
-  /// Of a volume.
-  VolumeRaster voxels() const {
-    const VolumeSize sides = {window.width(), window.height(), window.depth()};
-    return {sides, units.position(Point{0, 0, 0}), units.sides()};
-  }
 
   /// A position in pixels of the grid, in pixels of the diagram.
   Point from_grid(const Point& of_grid) const {

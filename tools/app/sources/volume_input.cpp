@@ -125,7 +125,7 @@ bool warn_of_voxels(const Grid& grid, const std::string& where) {
       "{}the axes get different scales on {} voxels, so the cells are not Voronoi cells in data units; a "
       "--size like the bounds makes voxels cubes, and others whose sides are as small whole numbers do as "
       "well",
-      where, to_string(VolumeSize{grid.width(), grid.height(), grid.depth()})));
+      where, sides_of(grid)));
   return true;
 }
 
@@ -147,8 +147,11 @@ void note_scales(const Grid& grid) {
 }
 
 View view_of_volume(const Grid& grid, bool in_pixels) {
-  View view = {Size(grid.width(), grid.height()), grid};
+  View view = {{Size(grid.width(), grid.height()), grid.depth()}, grid};
   view.units = in_pixels ? Units::of_voxels(grid) : Units(grid, has_scale(grid));
+  const Bounds bounds = {grid.x().from(), grid.y().from(), grid.x().to(),
+                         grid.y().to(),   grid.z().from(), grid.z().to()};
+  if (view.units.are_of_data()) view.picture.georeference = Georeference{bounds, false, {}};
   return view;
 }
 
