@@ -116,6 +116,13 @@ BOOST_AUTO_TEST_CASE(a_run_that_ends_early_says_which_frames_are_left) {
   BOOST_TEST(error("--labels l%d.npy --cells c.csv --frames 1:9") ==
              begin + "; --frames 3:9 makes the others, with other names of tables\n");
   BOOST_TEST(error("--labels l%d.npy -o f.mp4 --frames 1:9") == begin + "\n");
+  const std::string frame = "1\nLattice=\"6 0 0 0 5 0 0 0 4\"\nA 1 2 0\n";
+  folder.file("cut.xyz", frame + frame + "2\n");
+  for (const std::string how : {"--width 30 --labels c%d.npy", "--exact --cells c%d.csv"}) {
+    const std::string cut = run(folder, "simulate --trajectory cut.xyz " + how).error;
+    BOOST_TEST(cut.find("cut off") != std::string::npos, cut);
+    BOOST_TEST(cut.find("; frames complete before that: 2, written of them: 2\n") != std::string::npos, cut);
+  }
 }
 
 BOOST_AUTO_TEST_CASE(frames_that_are_not_there_are_refused) {

@@ -225,6 +225,26 @@ BOOST_AUTO_TEST_CASE(tables_say_where_seeds_are_and_what_their_rows_have) {
   refuses(folder, "tiles --random 5 --size 9x9 --keep name " + cells, usage, {"--keep", "--points"});
 }
 
+BOOST_AUTO_TEST_CASE(rows_without_a_coordinate_are_left_out_and_the_others_keep_their_numbers) {
+  const TemporaryFolder folder;
+  folder.file("p.csv", "x,y,v\nNA,1,a\n1,2,b\n30,4,c\n,,d\n-20,-5,e\n55,66,f\n5,NaN,g\n");
+  const std::string seeds = " --points p.csv --size 80x60 --keep v ";
+  const auto cells = run(folder, "cells" + seeds + "--labels a.npy --cells a.csv"),
+             tiles = run(folder, "tiles" + seeds + "--labels b.npy --cells b.csv");
+  BOOST_TEST((cells.exit_code == 0 && tiles.exit_code == 0), tiles.error);
+  for (const std::string& said : {cells.error, tiles.error})
+    BOOST_TEST(said.find("p.csv: 3 of 7 rows lack a coordinate and are left out") != std::string::npos, said);
+  BOOST_TEST((content_of(folder / "a.npy") == content_of(folder / "b.npy")));
+  for (const char* const column : {"id", "x", "v", "area"}) {
+    BOOST_TEST(transformed(rows_of(folder / "a.csv"), [&](const auto& row) { return row.at(column); }) ==
+                   transformed(rows_of(folder / "b.csv"), [&](const auto& row) { return row.at(column); }),
+               boost::test_tools::per_element());
+  }
+  folder.file("none.csv", "x,y\nNA,1\n2,\n");
+  refuses(folder, "tiles --points none.csv --size 8x6 --labels a.npy", failure,
+          {"none.csv", "all rows lack"});
+}
+
 BOOST_AUTO_TEST_CASE(random_pixels_are_those_of_a_device) {
   const Device device = Device::select();
   for (const std::uint64_t rng_seed : {std::uint64_t{1}, std::uint64_t{0xfedcba9876543210}}) {

@@ -97,6 +97,8 @@ BOOST_AUTO_TEST_CASE(first_rows_that_name_columns_are_headers) {
     BOOST_TEST((pairs_of(points.points) == two));
     BOOST_TEST(points.notes.empty());
   }
+  refuses_csv("a,b,nan\n1,2,3\n", {"p.csv:1", "no column x", "a, b, nan"});
+  BOOST_TEST((pairs_of(read("nan,nan\n1.5,-2\n300,0.25\n").points) == two));
   BOOST_TEST((pairs_of(read("nan,x,inf,y\n0,1.5,0,-2\n0,300,0,0.25\n").points) == two));
   const CsvPoints of_years = read("1990,2000\n1.5,-2\n300,0.25\n", Columns{"1990", "2000"});
   BOOST_TEST((pairs_of(of_years.points) == two));
@@ -205,6 +207,14 @@ BOOST_AUTO_TEST_CASE(csv_files_may_have_a_column_of_values) {
   check_error([&] { values(table, "depth"); }, {"p.csv:1", "no column depth", "x, name, y, Height"});
   check_error([&] { values("1,2,3\n", "depth"); }, {"p.csv:1", "no column depth", "0, 1, 2"});
   BOOST_TEST((values("x,y,name\n1,2,b\n3,4,a\n5,6,b\n", "name") == std::vector<double>{1, 0, 1}));
+  BOOST_TEST((values("x,y,v\n1,2,1e400\n3,4,-1e400\n5,6,1e-400\n", "v") ==
+              std::vector<double>{HUGE_VAL, -HUGE_VAL, 0}));
+  refuses_csv("x,y\n1,1e400\n", {"p.csv:2", "\"1e400\" is not finite"});
+  check_error(
+      [&] {
+        read_csv(folder.file("p.csv", table), {{}, "", false, {"name", "1"}});
+      },
+      {"p.csv:1", "column 1 is to be kept twice"});
   check_error([&] { values("x,y,name\n1,2,3\n3,4,a\n", "name"); }, {"p.csv:3", "\"a\" is not a number"});
   check_error([&] { values("x,y,z\n1,2,3\n4,5\n", "z"); }, {"p.csv:3", "no column 2"});
 }
@@ -274,11 +284,10 @@ BOOST_AUTO_TEST_CASE(files_are_read_in_blocks_that_are_the_whole) {
       std::vector<Point> read(points.size());
       std::size_t blocks = 0;
       for (std::uint64_t part = 0; part < parts; ++part) {
-        read_in_blocks(
-            folder / name, {}, {part, parts}, [&](std::uint64_t first, const std::vector<Point>& block) {
-              std::copy(block.begin(), block.end(), read.begin() + static_cast<std::ptrdiff_t>(first));
-              ++blocks;
-            });
+        read_in_blocks(folder / name, {}, {part, parts}, [&](std::uint64_t first, const Block& block) {
+          for (const std::optional<Point>& point : block) read[first++] = point.value();
+          ++blocks;
+        });
       }
       BOOST_TEST((pairs_of(read) == pairs_of(points)), name);
       BOOST_TEST(blocks == 3u);
@@ -290,7 +299,7 @@ BOOST_AUTO_TEST_CASE(a_file_that_changes_while_it_is_read_is_refused) {
   const TemporaryFolder folder;
   for (const std::string name : {"p.csv", "p.npy"}) {
     write_points(folder / name, {{1, 2}, {3, 4}}, {});
-    const auto append = [&](std::uint64_t, const std::vector<Point>&) {
+    const auto append = [&](std::uint64_t, const Block&) {
       std::ofstream(folder / name, std::ios::app) << "5,6,7\n";
     };
     check_error([&] { read_in_blocks(folder / name, {}, {}, append); }, {name, "changed while it was read"});

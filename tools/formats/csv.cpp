@@ -64,6 +64,15 @@ std::size_t locate(const std::string& column, const Line& first, bool has_header
 
 bool is_number(const std::string& field) { return parse_number<double>(field).has_value(); }
 
+/// Whether none of the fields is a finite number and one is a text: NaN alone may be absent numbers.
+bool are_texts(const Fields& fields) {
+  const auto is_text = [](const std::string& field) { return !field.empty() && !is_number(field); };
+  return std::any_of(fields.begin(), fields.end(), is_text) &&
+         std::none_of(fields.begin(), fields.end(), [](const std::string& field) {
+           return std::isfinite(parse_number<double>(field).value_or(INFINITY));
+         });
+}
+
 /// What programs write where there is no number.
 bool is_absent(const std::string& field) {
   static const std::set<std::string> texts = {"", "na", "n/a", "null", "nan"};
@@ -118,8 +127,7 @@ FirstRow first_row(const Fields& fields, const std::vector<std::string>& asked) 
     if (is_named || (is_index && !is_number(fields[*index]) && !is_absent(fields[*index])))
       row.is_header = row.has_names = true;
   }
-  if (std::none_of(fields.begin(), fields.end(), is_number) ||
-      (asked.empty() && usual_columns(fields, false)))
+  if (are_texts(fields) || (asked.empty() && usual_columns(fields, false)))
     row.is_header = row.has_names = true;
   return row;
 }
@@ -328,7 +336,12 @@ bool CsvReader::begin() {
       at.kept.push_back(i);
     }
   } else {
-    for (const std::string& column : options_.keep) at.kept.push_back(locate(column, line, first.is_header));
+    for (const std::string& column : options_.keep) {
+      const std::size_t index = locate(column, line, first.is_header);
+      if (std::find(at.kept.begin(), at.kept.end(), index) != at.kept.end())
+        throw line.error("column " + column + " is to be kept twice");
+      at.kept.push_back(index);
+    }
   }
   columns_there_ = fields_.size();
   return first.is_header;
@@ -398,6 +411,11 @@ void take_ids(const std::string& path, CsvPoints& read, const std::vector<std::u
 
 }  // namespace
 
+std::string note_of_absent(const std::string& path, std::uint64_t absent, std::uint64_t rows) {
+  return path + ": " + std::to_string(absent) + " of " + std::to_string(rows) +
+         " rows lack a coordinate and are left out";
+}
+
 CsvPoints read_csv(const std::string& path, const CsvOptions& options, bool has_z) {
   CsvReader reader(path, options, has_z);
   CsvPoints read;
@@ -416,10 +434,9 @@ CsvPoints read_csv(const std::string& path, const CsvOptions& options, bool has_
   read.values = column.take();
   read.notes = reader.notes();
   read.kept_names = reader.kept_names();
-  if (read.points.empty()) throw Error(path + " holds no points: all rows lack a coordinate");
+  if (read.points.empty()) throw Error(path + no_coordinates);
   if (read.points.size() < rows) {
-    read.notes.push_back(path + ": " + std::to_string(rows - read.points.size()) + " of " +
-                         std::to_string(rows) + " rows lack a coordinate and are left out");
+    read.notes.push_back(note_of_absent(path, rows - read.points.size(), rows));
   } else {
     read.ids.clear();  // the seeds' own
   }

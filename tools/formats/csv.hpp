@@ -113,6 +113,10 @@ struct CsvPoints {
   std::vector<std::string> kept_names, notes;
 };
 
+/// What is said of a file all or some of whose rows have no point.
+constexpr const char* no_coordinates = " holds no points: all rows lack a coordinate";
+std::string note_of_absent(const std::string& path, std::uint64_t absent, std::uint64_t rows);
+
 /// All points of such a file, without rows that lack a coordinate. Throws Error as CsvReader.
 CsvPoints read_csv(const std::string& path, const CsvOptions& options, bool has_z = false);
 

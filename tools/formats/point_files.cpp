@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "formats/files.hpp"
 #include "formats/id_order.hpp"
@@ -17,7 +18,8 @@ std::vector<std::string> read_npy_blocks(const std::string& path, const Slice& s
   for (std::uint64_t first = 0; first < points.size(); first += block_points) {
     if (!slice.holds(first / block_points)) continue;
     const std::uint64_t count = std::min<std::uint64_t>(block_points, points.size() - first);
-    use(first, points.read(first, static_cast<std::size_t>(count)));
+    const std::vector<Point> block = points.read(first, static_cast<std::size_t>(count));
+    use(first, {block.begin(), block.end()});
   }
   return {};
 }
@@ -25,19 +27,24 @@ std::vector<std::string> read_npy_blocks(const std::string& path, const Slice& s
 std::vector<std::string> read_csv_blocks(const std::string& path, const CsvOptions& options,
                                          const Slice& slice, const UseBlock& use) {
   CsvReader reader(path, options);
-  std::vector<Point> block;
-  std::uint64_t first = 0;
+  Block block;
+  std::uint64_t first = 0, absent = 0;
   const auto use_block = [&] {
     if (!block.empty() && slice.holds(first / block_points)) use(first, block);
     first += block.size();
     block.clear();
   };
   while (reader.next()) {
-    block.push_back(reader.point());
+    const Point& point = reader.point();
+    const bool is_there = !std::isnan(point.x) && !std::isnan(point.y);
+    block.push_back(is_there ? std::optional(point) : std::nullopt);
+    absent += is_there ? 0 : 1;
     if (block.size() == block_points) use_block();
   }
   use_block();
   std::vector<std::string> notes = reader.notes();
+  if (absent == first) throw Error(path + no_coordinates);
+  if (absent > 0) notes.push_back(note_of_absent(path, absent, first));
   if (reader.id()) notes.push_back(path + ": labels number the rows from 0; the column id is not read");
   return notes;
 }

@@ -23,13 +23,15 @@ struct Slice {
   bool holds(std::uint64_t block) const { return block % parts == part; }
 };
 
-/// A block, and the number of its first point.
-using UseBlock = std::function<void(std::uint64_t first, const std::vector<Point>& block)>;
+/// A block, in which points of a .csv file that lack a coordinate are absent, and the number of its first
+/// one.
+using Block = std::vector<std::optional<Point>>;
+using UseBlock = std::function<void(std::uint64_t first, const Block& block)>;
 
 /// Reads the points of a file in blocks, so that they are never in memory all at once; `use` is given each
-/// block of the slice, in the file's order. Of a .csv file the other blocks are read too, and points that
-/// lack a coordinate are NaN there. Returns what a user may not expect of the file. Throws Error as the
-/// readers of these files, for another extension, and if the file changes meanwhile.
+/// block of the slice, in the file's order. Of a .csv file the other blocks are read too. Returns what a user
+/// may not expect of the file. Throws Error as the readers of these files, for another extension, if the file
+/// changes meanwhile, and if all points are absent.
 std::vector<std::string> read_in_blocks(const std::string& path, const CsvOptions& options,
                                         const Slice& slice, const UseBlock& use);
 

@@ -5,11 +5,14 @@
 #include <charconv>
 #include <cstddef>
 #include <cstdint>
+#include <cstdlib>
 #include <limits>
 #include <map>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <system_error>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -26,15 +29,18 @@ inline std::string_view trimmed(std::string_view text) {
 }
 
 /// The number that the text is, without the blanks around it; "nan" and "inf" are numbers too. None if it is
-/// not one, if anything follows it, or if it does not fit the type.
+/// not one, if anything follows it, or if it is a whole number that does not fit the type; a floating-point
+/// number that does not is infinite or 0.
 template <typename T>
 std::optional<T> parse_number(std::string_view text) {
   text = trimmed(text);
   if (text.size() > 1 && text[0] == '+' && text[1] != '-') text.remove_prefix(1);
   T value{};
   const auto result = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (result.ec != std::errc() || result.ptr != text.data() + text.size()) return std::nullopt;
-  return value;
+  if (result.ptr != text.data() + text.size()) return std::nullopt;
+  if (std::is_floating_point_v<T> && result.ec == std::errc::result_out_of_range)
+    return static_cast<T>(std::strtod(std::string(text).c_str(), nullptr));
+  return result.ec == std::errc() ? std::optional(value) : std::nullopt;
 }
 
 /// What a column has row by row: numbers (NaN: absent), or those by which its texts stand in `texts`.

@@ -24,7 +24,7 @@ struct ExactCourse {
   int frames = 0;
   std::size_t uncertified = 0;  // cells
   Samples milliseconds;
-  std::string trouble;  // what ended it too early; empty: nothing
+  Trouble trouble;
 };
 
 /// `input` is of the first frame.
@@ -46,18 +46,18 @@ ExactCourse make_frames(const ExactFramesOptions& options, ExactFrames& frames, 
       writer.add(facts, writer.wants(frame) ? std::make_shared<Measures>(rows, buffers) : nullptr);
       progress.show(++course.frames, std::nullopt);
       if (interruption.came()) {
-        course.trouble = "interrupted";
+        course.trouble.text = "interrupted";
         break;
       }
       input = frame < last ? frames.next() : std::nullopt;
     }
   } catch (const std::exception& error) {
-    course.trouble = message_of(error);
+    course.trouble = Trouble(error);
   }
   try {
     writer.wait();
   } catch (const std::exception& error) {  // of a frame before
-    course.trouble = message_of(error);
+    course.trouble = Trouble(error);
   }
   return course;
 }

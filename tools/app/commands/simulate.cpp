@@ -95,18 +95,18 @@ class Run {
         add_frame();
         progress.show(simulation_.frame() + 1, source_.done());
         if (interruption_.came()) {
-          course_.trouble = "interrupted";
+          course_.trouble.text = "interrupted";
           break;
         }
       }
     } catch (
         const std::exception& error) {  // ours, or out of memory, or OpenCV's: the frames so far are kept
-      course_.trouble = message_of(error);
+      course_.trouble = Trouble(error);
     }
     try {
       writer_.wait();
     } catch (const std::exception& error) {  // of a frame before
-      course_.trouble = message_of(error);
+      course_.trouble = Trouble(error);
     }
     course_.frames = writer_.complete();
   }

@@ -59,7 +59,7 @@ struct Course {
   Samples similarities;  // of the frames after frame 0, where all methods start from nothing
   ErrorSamples errors;   // the same, where the other method is exact
   PlanSamples plans;     // where the method is djfa
-  std::string trouble;   // what ended it too early; empty: nothing
+  Trouble trouble;
 };
 
 /// On standard output, as text or JSON. Of what changes from frame to frame, the last one's, and so are the

@@ -56,7 +56,7 @@ std::pair<std::unique_ptr<SeedSource>, PlaneFacts> read_seeds(const PlaneInputOp
   }
   auto seeds = std::make_unique<PlaneSeeds>(plane, SeedsOptions{Outside::count, options.seeds.snapping()});
   PlaneReading reading;
-  reading.add = [&](std::uint64_t, const std::vector<Point>& places) { seeds->add(places); };
+  reading.add = [&](std::uint64_t, const Block& places) { seeds->add(places); };
   reading.reserve = [&](std::uint64_t count) { seeds->reserve(static_cast<std::size_t>(count)); };
   reading.stops = stops;
   PlaneFacts facts = read_plane_seeds(options, reading);

@@ -55,7 +55,7 @@ void check_files(const TilesOptions& options, const Ranks& ranks) {
 PlaneFacts read_slice(const TilesOptions& options, const Ranks& ranks, const Interruption& interruption,
                       SharedSeeds& seeds) {
   PlaneReading reading;
-  reading.add = [&](std::uint64_t first, const std::vector<Point>& places) { seeds.add(places, first); };
+  reading.add = [&](std::uint64_t first, const Block& places) { seeds.add(places, first); };
   reading.reserve = [&](std::uint64_t count) {
     const auto blocks = (count / block_points + 1) / static_cast<std::uint64_t>(ranks.count) + 1;
     seeds.reserve(static_cast<std::size_t>(std::min(blocks * block_points, count)));
@@ -69,7 +69,8 @@ PlaneFacts read_slice(const TilesOptions& options, const Ranks& ranks, const Int
     const Bounds& box = survey.box;
     const auto least = [&](double at) { return ranks.reduced(any ? at : none, MPI_DOUBLE, MPI_MIN); };
     const auto greatest = [&](double at) { return ranks.reduced(any ? at : -none, MPI_DOUBLE, MPI_MAX); };
-    return Survey{ranks.sum(survey.points),
+    return Survey{ranks.sum(survey.rows),
+                  ranks.sum(survey.points),
                   {least(box.x0), least(box.y0), greatest(box.x1), greatest(box.y1)}};
   };
   return read_plane_seeds(options.input, reading);

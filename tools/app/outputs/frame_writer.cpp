@@ -162,17 +162,18 @@ void FrameWriter::finish() {
   if (first) std::rethrow_exception(first);
 }
 
-void FrameWriter::end_run(const std::string& trouble, const FrameRange& frames) {
+void FrameWriter::end_run(const Trouble& trouble, const FrameRange& frames) {
   std::string late;
   try {
     if (complete_ > 0) finish();
   } catch (const Error& error) {
-    if (trouble.empty()) throw;
+    if (trouble.text.empty()) throw;
     late = fmt::format("; {}", error.what());
   }
-  if (trouble.empty()) return;
-  const std::string more = film_ ? "" : how_to_continue(frames, complete_, !tables_.empty());
-  throw Error(trouble + progress() + more + late);
+  if (trouble.text.empty()) return;
+  const std::string more =
+      film_ || trouble.is_of_frame ? "" : how_to_continue(frames, complete_, !tables_.empty());
+  throw Error(trouble.text + progress() + more + late);
 }
 
 }  // namespace vorocl::command

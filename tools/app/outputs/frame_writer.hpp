@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <exception>
 #include <memory>
 #include <optional>
 #include <string>
@@ -11,6 +12,7 @@
 #include "app/outputs/frame_files.hpp"
 #include "app/outputs/painter.hpp"
 #include "app/sources/moving_seeds.hpp"
+#include "app/terminal/console.hpp"
 #include "formats/images/film.hpp"
 #include "formats/numbered_files.hpp"
 #include "formats/workers.hpp"
@@ -47,6 +49,16 @@ struct FrameFacts {
   std::optional<Box> box = std::nullopt;  ///< of the trajectory
   ColumnValues values = {};               ///< those that pictures may show, as in Painter::draw()
   std::optional<FrameSimilarity> similarity = std::nullopt;
+};
+
+/// What ended a run before all its frames were made; without a text nothing did.
+struct Trouble {
+  Trouble() = default;
+  explicit Trouble(const std::exception& error)
+      : text(message_of(error)), is_of_frame(dynamic_cast<const BadFrame*>(&error) != nullptr) {}
+
+  std::string text;
+  bool is_of_frame = false;  ///< in its file, where a run of the others would end too
 };
 
 /// Each numbered file is whole as soon as it is there. The film and the tables grow under temporary names
@@ -89,9 +101,9 @@ class FrameWriter {
   /// are.
   void finish();
 
-  /// finish(), of a run of these frames that ended in `trouble`, or in none ("") if it made all. Throws Error
-  /// that says what ended it, how far it came and what makes the others.
-  void end_run(const std::string& trouble, const FrameRange& frames);
+  /// finish(), of a run of these frames. If trouble ended it, throws Error that says what did, how far it
+  /// came and what makes the others.
+  void end_run(const Trouble& trouble, const FrameRange& frames);
 
  private:
   void open_files();

@@ -34,11 +34,13 @@ void require(bool possible, const SeedOptions& options, std::uint64_t index, con
 Survey survey(const SeedOptions& options, const PlaneReading& reading) {
   Survey result;
   const std::vector<std::string> notes = read_in_blocks(
-      options.points, options.csv(), reading.slice,
-      [&](std::uint64_t first, const std::vector<Point>& block) {
+      options.points, options.csv(), reading.slice, [&](std::uint64_t first, const Block& block) {
         check_stop(reading.stops);
-        for (const Point& point : block) {
-          require(std::isfinite(point.x) && std::isfinite(point.y), options, first++, point, "not finite");
+        result.rows += block.size();
+        for (std::size_t i = 0; i < block.size(); ++i) {
+          if (!block[i]) continue;
+          const Point& point = *block[i];
+          require(std::isfinite(point.x) && std::isfinite(point.y), options, first + i, point, "not finite");
           const Bounds here = {point.x, point.y, point.x, point.y};
           result.box = result.points++ == 0 ? here : joined(result.box, here);
         }
@@ -50,11 +52,12 @@ Survey survey(const SeedOptions& options, const PlaneReading& reading) {
 /// A hash of the seeds that does not depend on their order, or on which process has them.
 class SeedsHash {
  public:
-  void add(std::uint64_t first, const std::vector<Point>& places) {
-    for (const Point& place : places) {
+  void add(std::uint64_t first, const Block& places) {
+    for (std::size_t i = 0; i < places.size(); ++i) {
+      if (!places[i]) continue;
       Hash hash;
-      hash.add(first++);
-      for (const double at : {place.x, place.y}) {
+      hash.add(first + i);
+      for (const double at : {places[i]->x, places[i]->y}) {
         std::uint64_t bits = 0;
         std::memcpy(&bits, &at, sizeof bits);
         hash.add(bits);
@@ -85,7 +88,7 @@ PlaneFacts map_points(const SeedOptions& options, const Grid& plane, const Surve
   const Bounds bounds = options.bounds.value_or(widened(survey.box, options.margin));
   const Outside outside = options.outside.value_or(Outside::count);
   const Grid data = grid_of(bounds, plane, points_up(options), !options.bounds || outside == Outside::refuse);
-  reading.reserve(survey.points);
+  reading.reserve(survey.rows);
   SeedsHash hash;
   std::uint64_t points_outside = 0;
   const auto place_of = [data, snap = options.snapping()](const Point& point) {
@@ -94,12 +97,16 @@ PlaneFacts map_points(const SeedOptions& options, const Grid& plane, const Surve
     };
     return Point{along(data.x(), point.x), along(data.y(), point.y)};
   };
-  std::vector<Point> places;
-  const auto add = [&](std::uint64_t first, const std::vector<Point>& block) {
+  Block places;
+  const auto add = [&](std::uint64_t first, const Block& block) {
     check_stop(reading.stops);
     places.clear();
-    for (const Point& point : block) {
-      const Point place = place_of(point);
+    for (const std::optional<Point>& there : block) {
+      if (!there) {
+        places.emplace_back();
+        continue;
+      }
+      const Point &point = *there, place = place_of(point);
       const bool inside = place.x >= 0 && place.x < static_cast<double>(plane.width()) && place.y >= 0 &&
                           place.y < static_cast<double>(plane.height());
       require(outside == Outside::count || (inside && data.x().covers(point.x) && data.y().covers(point.y)),
@@ -111,7 +118,7 @@ PlaneFacts map_points(const SeedOptions& options, const Grid& plane, const Surve
     try {
       reading.add(first, places);
     } catch (const BadPoint& bad) {
-      require(false, options, bad.index(), block[bad.index() - first],
+      require(false, options, bad.index(), block[bad.index() - first].value(),
               "2^31 pixels or more away from a pixel of the bounds " + to_string(bounds));
     }
     hash.add(first, places);
@@ -138,7 +145,7 @@ PlaneFacts read_points(const SeedOptions& options, const Grid& plane, const Plan
 PlaneFacts make_random(const SeedOptions& options, const Grid& plane, const PlaneReading& reading) {
   reading.reserve(options.random);
   SeedsHash hash;
-  std::vector<Point> pixels;
+  Block pixels;
   for (std::size_t first = 0; first < options.random; first += block_points) {
     if (!reading.slice.holds(first / block_points)) continue;
     check_stop(reading.stops);

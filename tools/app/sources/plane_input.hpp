@@ -32,16 +32,16 @@ std::unique_ptr<MaskRows> open_plane_mask(PlaneInputOptions& options);
 /// What no parser can say. Throws UsageError, and Error for bounds that have no scale.
 void check_plane_options(const PlaneInputOptions& options);
 
-/// How many points there are, and the rectangle that they fill.
+/// How many points a file has, how many of them are there, and the rectangle that these fill.
 struct Survey {
-  std::uint64_t points = 0;
+  std::uint64_t rows = 0, points = 0;
   Bounds box;  ///< if there are any
 };
 
 /// How seeds are read: by a process alone, or by several that read a slice each, all at once.
 struct PlaneReading {
   /// Takes the places, in pixels, of seeds with the ids first, first + 1, ...
-  std::function<void(std::uint64_t first, const std::vector<Point>& places)> add;
+  UseBlock add;
   std::function<void(std::uint64_t seeds)> reserve;  ///< says before how many seeds all have
   std::function<bool()> stops;                       ///< asked between two blocks
   Slice slice = {};

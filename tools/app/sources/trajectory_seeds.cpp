@@ -85,7 +85,12 @@ FrameReader::FrameReader(const SeedOptions& options, bool of_volume)
       reader_(open_trajectory(path_, options.read_column(), of_volume ? Wanted::volume : Wanted::all)) {}
 
 bool FrameReader::next() {
-  Read read = ahead_.valid() ? ahead_.get() : read_into(std::move(room_));
+  Read read;
+  try {
+    read = ahead_.valid() ? ahead_.get() : read_into(std::move(room_));
+  } catch (const Error& error) {
+    throw BadFrame(error.what());
+  }
   if (!read.is_there) return false;
   room_ = std::exchange(frame_, std::move(read.frame));
   bytes_left_ = read.bytes_left;
@@ -111,8 +116,8 @@ void FrameReader::read_ahead() {
   }
 }
 
-Error FrameReader::error(const Error& what) const {
-  return Error(fmt::format("{}: frame {}: {}", path_, number_, what.what()));
+BadFrame FrameReader::error(const Error& what) const {
+  return BadFrame(fmt::format("{}: frame {}: {}", path_, number_, what.what()));
 }
 
 FrameReader::Read FrameReader::read_into(Frame room) const {

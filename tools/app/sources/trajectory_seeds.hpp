@@ -21,6 +21,12 @@ enum class Fit {
   frame  ///< each frame's own, stretched onto the picture
 };
 
+/// What is wrong in a frame of a file: to make frames again from there on is of no use.
+class BadFrame : public Error {
+ public:
+  using Error::Error;
+};
+
 /// Reads the frames of a file one after the other. Holds one, and reads the next one meanwhile: memory does
 /// not grow with the number of frames.
 class FrameReader {
@@ -28,7 +34,7 @@ class FrameReader {
   /// Throws Error if the file cannot be read.
   FrameReader(const SeedOptions& options, bool of_volume);
 
-  /// Goes to the next frame; false after the last. Throws Error if it is bad.
+  /// Goes to the next frame; false after the last. Throws BadFrame if it is bad.
   bool next();
 
   /// Goes on to a frame by its number. Throws Error if the file has fewer.
@@ -46,7 +52,7 @@ class FrameReader {
   std::optional<std::uintmax_t> bytes_left() const { return bytes_left_; }
 
   /// An error in the frame, which it names.
-  Error error(const Error& what) const;
+  BadFrame error(const Error& what) const;
 
  private:
   /// What the reader gives next.
