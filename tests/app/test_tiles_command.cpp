@@ -353,7 +353,7 @@ BOOST_AUTO_TEST_CASE(names_of_arrays_may_end_in_a_slash) {
 BOOST_AUTO_TEST_CASE(what_makes_no_sense_is_refused) {
   const TemporaryFolder folder;
   write_points_file(folder);
-  folder.file("nan.csv", "x,y\n1,2\n3,nan\n");
+  write_npy_points(folder / "nan.npy", {{1, 2}, {3, NAN}});
   folder.file("empty.csv", "x,y\n");
   folder.file("far.csv", "x,y\n1,2\n1e12,3\n");
   std::filesystem::create_directory(folder / "there.zarr");
@@ -390,8 +390,8 @@ BOOST_AUTO_TEST_CASE(what_makes_no_sense_is_refused) {
   refuses(folder, points + "--labels a.tif --crs EPSG:4326", usage, {"with --bounds"});
   refuses(folder, points + "--labels a.npy --outside refuse --bounds 0,0,60,40", failure,
           {"p.csv: point 2 at (-20, -5) is outside the bounds"});
-  refuses(folder, "tiles --points nan.csv --size 40x30 --labels a.npy", failure,
-          {"nan.csv: point 1 at (3, nan) is not finite"});
+  refuses(folder, "tiles --points nan.npy --size 40x30 --labels a.npy", failure,
+          {"nan.npy: point 1 at (3, nan) is not finite"});
   refuses(folder, "tiles --points far.csv --size 40x30 --bounds 0,0,9,9 --labels a.npy", failure,
           {"far.csv: point 1 at (1000000000000, 3) is 2^31 pixels or more away"});
   refuses(folder, "tiles --points empty.csv --size 40x30 --labels a.npy", failure,

@@ -97,7 +97,7 @@ refused 'nothing to write' 2 --random 10 --size 100x100
 if "$ranks" 1 "$commands/vorocl-mpi" >log 2>&1; then fail "no subcommand: was not refused"; fi
 grep -q '^vorocl-mpi: error: .*; see vorocl-mpi --help$' log || fail "no subcommand: $(cat log)"
 refused "the plane's width is 0" 2 --random 10 --size 0x100 --labels x.npy
-{ cat blobs.csv blobs.csv blobs.csv; echo 'nan,1'; } | sed '2,$ { /x,y/d }' >bad.csv
+{ cat blobs.csv blobs.csv blobs.csv; echo 'inf,1'; } | sed '2,$ { /x,y/d }' >bad.csv
 refused 'not finite' 3 --points bad.csv --size 100x100 --labels x.npy
 echo mine >x.npy.journal
 refused 'x.npy.journal is no journal of a run' 2 --random 10 --size 100x100 --labels x.npy --resume
