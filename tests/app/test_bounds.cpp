@@ -166,11 +166,11 @@ BOOST_AUTO_TEST_CASE(a_width_makes_pixels_square) {
 }
 
 BOOST_AUTO_TEST_CASE(sizes_are_width_x_height) {
-  BOOST_TEST((parse_size("1440x720") == Size(1440, 720)));
+  BOOST_TEST((parse_grid("1440x720") == Grid(1440, 720)));
   for (const char* bad : {"", "10", "x", "10x", "x10", "10x10x10", "10X10", "1e3x10", "10.5x10", "ax10"}) {
-    check_error([&] { parse_size(bad); }, {"WxH"});
+    check_error([&] { parse_grid(bad); }, {"WxH"});
   }
-  check_error([] { parse_size("0x10"); }, {"width is 0"});
-  check_error([] { parse_size("10x-1"); }, {"height is -1"});
-  check_error([] { parse_size("32769x10"); }, {"32769", "32768"});
+  check_error([] { parse_grid("0x10"); }, {"width is 0"});
+  check_error([] { parse_grid("10x-1"); }, {"height is -1"});
+  check_error([] { parse_grid("32769x10"); }, {"32769", "32768"});
 }

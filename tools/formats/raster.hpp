@@ -19,8 +19,9 @@ class Size {
   /// Throws Error unless both sides are in [1, max_side] and there are at most Window::max_pixels.
   Size(std::int64_t width, std::int64_t height);
 
-  /// That of a window.
+  /// That of a window, or of a slice of a grid.
   explicit Size(const Window& window) : Size(window.width(), window.height()) {}
+  explicit Size(const Grid& grid) : Size(grid.width(), grid.height()) {}
 
   int width() const { return width_; }
   int height() const { return height_; }

@@ -109,7 +109,7 @@ void add_bench(CommandLine& line) {
   add_device_option(command, options->device);
   add_json_option(command, options->json);
   command.set_work([command, options] {
-    if (options->seeds.depth > 1) check_volume(*options);
+    if (options->seeds.is_volume()) check_volume(*options);
     check_method_options(command, options->methods, options->benchmark.method);
     options->seeds.keeps_inside = "bench cannot take";
     options->seeds.usual_snap = Snap::to_pixels;

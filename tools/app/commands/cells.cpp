@@ -48,7 +48,7 @@ struct CellsOptions {
   bool json = false;
   bool exact = false;
 
-  bool is_volume() const { return seeds.depth > 1; }
+  bool is_volume() const { return seeds.is_volume(); }
   std::vector<FileRequest> requests() const { return files.of(is_volume()); }
 };
 

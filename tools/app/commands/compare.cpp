@@ -101,11 +101,8 @@ void note_strangers(const std::string& path, const std::vector<std::uint32_t>& o
 Comparison compare_with_exact(const CompareOptions& options) {
   const LabelImage image = read_labels(options.a);
   SeedOptions seed_options = options.seeds;
-  if (!seed_options.size && seed_options.width == 0) {
-    seed_options.size = image.size;
-    seed_options.depth = image.depth;
-  }
-  const bool is_volume = seed_options.depth > 1;
+  if (!seed_options.size && seed_options.width == 0) seed_options.size = image.grid();
+  const bool is_volume = seed_options.is_volume();
   if (image.depth > 1 && seed_options.width != 0) refuse_in_volumes("--width");
   if (is_volume) check_volume_method(method("exact"), options.metric);
   const Input input = read_input(seed_options);

@@ -231,8 +231,7 @@ void run(RelaxCommand& options) {
   const RelaxOutputs outputs = open_outputs(options);
   std::optional<DensityImage> density;
   if (!options.density_path.empty()) density = read_density(options.density_path);
-  if (density && options.seeds.random > 0 && !options.seeds.size) options.seeds.size = density->size;
-  if (options.seeds.depth > 1) throw UsageError(std::string("--size ") + volumes_are_for);
+  if (density && options.seeds.random > 0 && !options.seeds.size) options.seeds.size = density->size.grid();
   Input input = read_input(options.seeds);
   RelaxOptions how;
   how.density = density_of_grid(options, std::move(density), input);

@@ -36,7 +36,7 @@ struct RenderOptions {
   bool json = false;
 
   bool draws() const { return !picture_path.empty() || !waves_pattern.empty(); }
-  bool is_volume() const { return seeds.depth > 1; }
+  bool is_volume() const { return seeds.is_volume(); }
 };
 
 std::vector<RequestedFile> requested_files(const RenderOptions& options) {
@@ -60,7 +60,7 @@ Outputs open_outputs(const RenderOptions& options) {
   if (!options.waves_pattern.empty() && !options.method.plan) {
     throw UsageError("--waves: the method " + std::string(options.method.name) + " has no waves");
   }
-  if (options.is_volume()) check_slice(options.picture, options.picture_path, volume_of(options.seeds));
+  if (options.is_volume()) check_slice(options.picture, options.picture_path, *options.seeds.size);
   check_outputs(requested_files(options), options.seeds);
   if (options.draws()) check_picture_options(options.picture);
   Outputs outputs;

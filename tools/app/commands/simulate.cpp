@@ -247,7 +247,7 @@ void prepare_volumes(const Command& command, SimulateOptions& options) {
   if (command.has("--tolerance")) refuse_in_volumes("--tolerance");
   check_volume_method(options.method, options.method_options.metric);
   if (options.compare_with) check_volume_method(*options.compare_with, options.other_metric());
-  check_slice(options.output.picture, options.output.picture_path, volume_of(seeds));
+  check_slice(options.output.picture, options.output.picture_path, *seeds.size);
   choose_snap(options);
 }
 
@@ -324,8 +324,8 @@ void add_simulate(CommandLine& line) {
     if (options->exact) return run_exact(command, *options);
     if (options->output.picture_path.empty()) refuse_picture_options(command, "-o");
     check_method_options(command, {options->method}, options->method_options);
-    options->seeds.depth > 1 ? prepare_volumes(command, *options) : prepare_planes(*options);
-    for (FileRequest& request : options->output.files) request = of_grid(request, options->seeds.depth > 1);
+    options->seeds.is_volume() ? prepare_volumes(command, *options) : prepare_planes(*options);
+    for (FileRequest& request : options->output.files) request = of_grid(request, options->seeds.is_volume());
     run(*options);
   });
 }

@@ -45,16 +45,16 @@ TilesCourse make_tiles(const TilesOptions& options, const Device& device, const 
 }
 
 /// The seeds of a plane, ready to be asked for, and what is known of them.
-std::pair<std::unique_ptr<SeedSource>, PlaneFacts> read_seeds(const PlaneInputOptions& options,
-                                                              MaskRows* rows, const Grid& plane,
+std::pair<std::unique_ptr<SeedSource>, PlaneFacts> read_seeds(const SeedOptions& options, MaskRows* rows,
+                                                              const Grid& plane,
                                                               const Interruption& interruption) {
   const auto stops = [&] { return interruption.came(); };
   if (rows != nullptr) {
     auto mask = std::make_unique<PlaneMask>(plane);
-    PlaneFacts facts = read_plane_mask(options.seeds.mask, *rows, stops, *mask);
+    PlaneFacts facts = read_plane_mask(options.mask, *rows, stops, *mask);
     return {std::move(mask), std::move(facts)};
   }
-  auto seeds = std::make_unique<PlaneSeeds>(plane, SeedsOptions{Outside::count, options.seeds.snapping()});
+  auto seeds = std::make_unique<PlaneSeeds>(plane, SeedsOptions{Outside::count, options.snapping()});
   PlaneReading reading;
   reading.add = [&](std::uint64_t, const Block& places) { seeds->add(places); };
   reading.reserve = [&](std::uint64_t count) { seeds->reserve(static_cast<std::size_t>(count)); };
@@ -68,13 +68,13 @@ void run_tiles(TilesOptions options) {
   const Interruption interruption;  // before there are files
   const Device device = select_device(options.device);
   const FinishAtEnd finish(device);
-  const std::unique_ptr<MaskRows> mask = open_plane_mask(options.input);
+  const std::unique_ptr<MaskRows> mask = open_plane_mask(options.seeds);
   const Tiling tiling = tiling_of(options, device);
   PlaneWriter writer(options.output, tiling, georeference(options, tiling), run_of(options, tiling));
-  const auto [seeds, facts] = read_seeds(options.input, mask.get(), tiling.window().grid(), interruption);
+  const auto [seeds, facts] = read_seeds(options.seeds, mask.get(), tiling.window().grid(), interruption);
   writer.begin(facts.name);
   const TilesCourse course = make_tiles(options, device, *seeds, tiling, facts.units, writer, interruption);
-  writer.finish(facts.units, [&, &known = facts] { return rows_of_seeds(options.input, known); });
+  writer.finish(facts.units, [&, &known = facts] { return rows_of_seeds(options.seeds, known); });
   print_result(options, device, facts, tiling, course);
 }
 

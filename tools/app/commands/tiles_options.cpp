@@ -42,7 +42,7 @@ void check_part(const char* axis, std::int64_t first, std::int64_t count, std::i
 }
 
 Window window_of(const TilesOptions& options) {
-  const Grid plane = options.input.plane();
+  const Grid plane = plane_of(options.seeds);
   if (!options.part) return plane;
   const PlanePart& part = *options.part;
   check_part("x", part.x, part.width, plane.width());
@@ -53,15 +53,15 @@ Window window_of(const TilesOptions& options) {
 void check_options(const TilesOptions& options) {
   const PlaneWriterOptions& output = options.output;
   const std::vector<RequestedFile> files = requested_files(output);
-  check_outputs(files, options.input.seeds);
+  check_outputs(files, options.seeds);
   if (std::all_of(files.begin(), files.end(), [](const RequestedFile& file) { return file.path.empty(); })) {
     throw UsageError(
         "nothing to write: give at least one of --labels, --distance, -o, --cells and --adjacency");
   }
-  check_plane_options(options.input);
-  if (!options.input.seeds.keep.empty() && output.cells.empty()) throw UsageError("--keep is for --cells");
+  check_plane_options(options.seeds);
+  if (!options.seeds.keep.empty() && output.cells.empty()) throw UsageError("--keep is for --cells");
   const bool has_tiff = is_tiff_name(output.labels) || is_tiff_name(output.distances);
-  if (options.crs && !(has_tiff && options.input.seeds.bounds)) {
+  if (options.crs && !(has_tiff && options.seeds.bounds)) {
     throw UsageError("--crs is for --labels or --distance FILE.tif, with --bounds in its coordinates");
   }
 }
@@ -72,8 +72,9 @@ void add_tiles(CommandLine& line, const std::function<void(const TilesOptions&)>
   const auto options = std::make_shared<TilesOptions>();
   Command command =
       line.add("tiles", "Make the diagram of a plane that is larger than a device, tile by tile");
-  add_plane_options(command, options->input);
-  add_units_option(command, options->input.seeds, "points");
+  add_seed_options(command, options->seeds, 1, false, Makes::tiles);
+  add_snap_option(command, options->seeds);
+  add_units_option(command, options->seeds, "points");
   command.begin_section("Tiles");
   add_metric_option(command, options->metric);
   command.add("--tile", options->side, "Side of the tiles in pixels; of a .tif file a multiple of 16")
@@ -94,7 +95,7 @@ void add_tiles(CommandLine& line, const std::function<void(const TilesOptions&)>
       .add("--distance", options->output.distances,
            "Distances to the nearest seed, in files as labels: float32")
       .value_name("FILE");
-  add_keep_option(command, options->input.seeds);
+  add_keep_option(command, options->seeds);
   add_crs_option(command, options->crs, "a .tif file says");
   command
       .add("-o", options->output.picture,
@@ -133,7 +134,7 @@ bool is_tiff_name(const std::string& path) {
 
 Tiling tiling_of(const TilesOptions& options, const Device& device) {
   constexpr int most_of_masks = 2048;  // which may have a seed on each pixel
-  const bool has_mask = !options.input.seeds.mask.empty();
+  const bool has_mask = !options.seeds.mask.empty();
   const int usual = std::min(default_tile_side(device), has_mask ? most_of_masks : Size::max_side);
   const int side = options.side > 0 ? options.side : usual;
   const Tiling tiling(window_of(options), side);
@@ -151,11 +152,11 @@ std::string run_of(const TilesOptions& options, const Tiling& tiling) {
 }
 
 std::optional<Georeference> georeference(const TilesOptions& options, const Tiling& tiling) {
-  const std::optional<Bounds>& bounds = options.input.seeds.bounds;
+  const std::optional<Bounds>& bounds = options.seeds.bounds;
   if (!bounds) return std::nullopt;
   const Window& window = tiling.window();
   const Grid& plane = window.grid();
-  const bool y_up = points_up(options.input.seeds);
+  const bool y_up = points_up(options.seeds);
   const auto between = [](double low, double high, std::int64_t pixel, std::int64_t pixels) {
     return pixel == pixels ? high
                            : low + (high - low) * (static_cast<double>(pixel) / static_cast<double>(pixels));

@@ -19,7 +19,7 @@ struct PlanePart {
 };
 
 struct TilesOptions {
-  PlaneInputOptions input;
+  SeedOptions seeds;
   int side = 0;                   // of tiles; 0: the device's
   std::optional<PlanePart> part;  // else all of it
   Metric metric = Metric::euclidean;

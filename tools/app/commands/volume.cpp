@@ -6,8 +6,6 @@
 
 namespace vorocl::command {
 
-Grid volume_of(const SeedOptions& seeds) { return {seeds.size->width(), seeds.size->height(), seeds.depth}; }
-
 void check_volume_method(const Method& method, Metric metric) {
   if (method.exact && metric == Metric::manhattan) {
     throw UsageError(

@@ -12,9 +12,6 @@
 
 namespace vorocl::command {
 
-/// The volume that --size asks for.
-Grid volume_of(const SeedOptions& seeds);
-
 /// Throws UsageError for a method that knows planes alone, or no such metric in volumes.
 void check_volume_method(const Method& method, Metric metric);
 

@@ -43,7 +43,7 @@ TilesOptions with_one_side(TilesOptions options, const Ranks& ranks, const Devic
 }
 
 void check_files(const TilesOptions& options, const Ranks& ranks) {
-  if (!options.input.seeds.mask.empty())
+  if (!options.seeds.mask.empty())
     throw UsageError("--mask is for vorocl tiles, one process that holds a bit for each pixel");
   for (const std::string& path : {options.output.labels, options.output.distances}) {
     if (ranks.count > 1 && is_tiff_name(path))
@@ -73,7 +73,7 @@ PlaneFacts read_slice(const TilesOptions& options, const Ranks& ranks, const Int
                   ranks.sum(survey.points),
                   {least(box.x0), least(box.y0), greatest(box.x1), greatest(box.y1)}};
   };
-  return read_plane_seeds(options.input, reading);
+  return read_plane_seeds(options.seeds, reading);
 }
 
 /// Makes this rank's tiles. Throws Error if a signal comes before all are.
@@ -152,13 +152,13 @@ void run(const TilesOptions& given) {
   const Tiling tiling = tiling_of(options, device);
   SharedPlaneWriter writer(ranks, options.output, tiling, georeference(options, tiling),
                            run_of(options, tiling));
-  SharedSeeds seeds(ranks.communicator, tiling.window().grid(), options.input.seeds.snapping());
+  SharedSeeds seeds(ranks.communicator, tiling.window().grid(), options.seeds.snapping());
   const PlaneFacts facts = read_slice(options, ranks, interruption, seeds);
   seeds.share();
   writer.begin(facts.name);
   const TilesCourse course =
       make_tiles(options, ranks, device, seeds, tiling, facts.units, writer, interruption);
-  writer.finish(facts.units, [&] { return rows_of_seeds(options.input, facts); });
+  writer.finish(facts.units, [&] { return rows_of_seeds(options.seeds, facts); });
   if (ranks.rank == 0) print_result(options, device, facts, tiling, course);
 }
 

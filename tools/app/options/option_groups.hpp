@@ -9,7 +9,6 @@
 #include "app/outputs/frame_writer.hpp"
 #include "app/outputs/painter.hpp"
 #include "app/sources/moving_seeds.hpp"
-#include "app/sources/plane_input.hpp"
 #include "app/sources/seed_input.hpp"
 #include "vorocl/grid.hpp"
 #include "vorocl/method.hpp"
@@ -21,15 +20,12 @@ Option add_device_option(Command& command, std::string& request);
 Option add_json_option(Command& command, bool& json);
 
 /// What a subcommand makes of seeds.
-enum class Makes { planes, volumes_too };
+enum class Makes { planes, volumes_too, tiles };
 
 /// Adds --random, --points, --mask, --trajectory, of which at least so many and at most one must be given,
 /// and what goes with them. Where seeds `move` at random, all of them have a use for the rng seed.
 void add_seed_options(Command& command, SeedOptions& options, std::size_t least = 1, bool move = false,
                       Makes makes = Makes::planes);
-
-/// Adds --random and --points, of which one must be given, and what goes with them, for planes.
-void add_plane_options(Command& command, PlaneInputOptions& options);
 
 /// Adds --snap and --no-snap, for the subcommands that make exact diagrams of points.
 void add_snap_option(Command& command, SeedOptions& options, const std::string& judges = "");
@@ -60,8 +56,9 @@ void add_units_option(Command& command, SeedOptions& options,
 /// Adds --frames, --step-length, --fit and --border.
 void add_motion_options(Command& command, MotionOptions& options);
 
-/// "WxH" to a size. Throws Error if it is not that, or not possible.
-Size parse_size(const std::string& text);
+/// "WxH" to a grid of pixels, or "WxHxD" where there are volumes. Throws Error if it is not that, or not
+/// possible.
+Grid parse_grid(const std::string& text, Makes makes = Makes::planes);
 
 /// The methods as choices of an option.
 Choices<Method> method_choices();

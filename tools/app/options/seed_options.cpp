@@ -17,11 +17,8 @@ namespace vorocl::command {
 
 namespace {
 
-/// Whose option a file is that stands alone: of all sources of seeds, or of those that a plane can have.
-enum class Sources { all, of_planes };
-
 /// What to write instead of the name of a file alone.
-std::string option_for(const std::string& file, Sources sources) {
+std::string option_for(const std::string& file, Makes makes) {
   const std::string extension = extension_of(file);
   const auto is_one_of = [&extension](const std::vector<std::string>& extensions) {
     return std::find(extensions.begin(), extensions.end(), extension) != extensions.end();
@@ -30,69 +27,10 @@ std::string option_for(const std::string& file, Sources sources) {
                              : is_one_of({".xyz", ".extxyz", ".lammpstrj", ".dump"})         ? "--trajectory "
                              : is_one_of({".png", ".jpg", ".jpeg", ".bmp", ".tif", ".tiff"}) ? "--mask "
                                                                                              : nullptr;
-  if (option == nullptr || (sources == Sources::of_planes && option == std::string_view("--trajectory "))) {
+  if (option == nullptr || (makes == Makes::tiles && option == std::string_view("--trajectory "))) {
     return "\"" + file + "\" is neither an option nor the value of one";
   }
   return "\"" + file + "\" is no option; for its seeds write " + option + file;
-}
-
-Option add_random_option(Command& source, SeedOptions& options, std::size_t most) {
-  return source.add("--random", options.random, "N uniformly random pixels")
-      .value_name("N")
-      .in_range(std::size_t{1}, most);
-}
-
-Option add_points_option(Command& source, SeedOptions& options) {
-  return source.add("--points", options.points, "Points of a .csv or .npy file, in data units")
-      .value_name("FILE");
-}
-
-Option add_rng_seed_option(Command& command, SeedOptions& options) {
-  return command.add("--rng-seed", options.rng_seed, "Seed of the random numbers")
-      .value_name("R")
-      .default_is_value();
-}
-
-Option add_columns_option(Command& command, SeedOptions& options, bool volumes) {
-  return command
-      .add_parsed(
-          "--columns", options.columns, volumes ? parse_columns_and_z : parse_columns,
-          std::string("Columns of the CSV file, by name or by index from 0; else those that the header "
-                      "names x and y, or lon and lat") +
-              (volumes ? " (and z)" : "") + ", or the only " + (volumes ? "ones" : "two") +
-              " where there is no header")
-      .value_name(volumes ? "X,Y[,Z]" : "X,Y");
-}
-
-Option add_decimal_option(Command& command, SeedOptions& options) {
-  const auto parse = [](const std::string& mark) {
-    if (mark == "." || mark == ",") return mark == ",";
-    throw Error("\"" + mark + "\" must be a point or a comma");
-  };
-  return command
-      .add_parsed("--decimal", options.decimal_comma, parse,
-                  "Decimal mark of the CSV file; with a comma, fields are separated by semicolons or tabs")
-      .value_name("MARK")
-      .default_text(".");
-}
-
-void add_margin_option(Command& command, SeedOptions& options) {
-  command
-      .add("--margin", options.margin,
-           "Without --bounds: how much farther than the points' bounding box the picture goes all round, in "
-           "percent "
-           "of its longer side")
-      .value_name("P")
-      .default_is_value()
-      .in_range(0.0, 1000.0)
-      .needs("--points")
-      .excludes(command.option("--bounds"));
-}
-
-void add_bounds_option(Command& command, SeedOptions& options, const std::string& about,
-                       bool volumes = false) {
-  const auto parse = [volumes](const std::string& text) { return parse_bounds(text, volumes); };
-  command.add_parsed("--bounds", options.bounds, parse, about).value_name("X0,Y0,X1,Y1");
 }
 
 Bounds parse_domain(const std::string& text) {
@@ -102,70 +40,14 @@ Bounds parse_domain(const std::string& text) {
   return parse_bounds(text);
 }
 
-void add_outside_option(Command& command, SeedOptions& options) {
-  const Choices<std::optional<Outside>> outside = {{"count", Outside::count}, {"refuse", Outside::refuse}};
-  command
-      .add_choice(
-          "--outside", options.outside, outside,
-          "Points outside the bounds: they own the pixels that are nearest to them, or they are an error")
-      .default_text("count");
-}
-
-/// Of some of the axes x and y or, where there are volumes, of all three.
-Option add_periodic_option(Command& command, SeedOptions& options, bool volumes, const std::string& about) {
-  Choices<std::optional<Axes>> axes;
-  for (int some = 0; some <= static_cast<int>(volumes ? Axes::xyz : Axes::xy); ++some) {
-    axes.emplace_back(to_string(static_cast<Axes>(some)), static_cast<Axes>(some));
+/// Throws Error if a diagram cannot have these sides.
+void check_sides(std::int64_t width, std::int64_t height) {
+  if (std::max(width, height) > Size::max_side) {
+    throw Error(fmt::format(
+        "{} pixels are more than the {} that a side of a diagram has at most; vorocl tiles makes larger ones",
+        std::max(width, height), Size::max_side));
   }
-  return command.add_choice("--periodic", options.periodic, axes, about);
-}
-
-void add_y_options(Command& command, SeedOptions& options, const std::string& about_up) {
-  const Option up = command.add("--y-up", options.y_up, about_up);
-  command.add("--y-down", options.y_down, "The data's y axis points down (the default for points)")
-      .excludes(up);
-}
-
-using Sides = std::pair<std::int64_t, std::int64_t>;
-
-/// Both numbers of "WxH"; none of another text.
-std::optional<Sides> sides_in(const std::string& text) {
-  const auto x = text.find('x');
-  const auto width = parse_number<std::int64_t>(text.substr(0, x));
-  const auto height = x == std::string::npos ? std::nullopt : parse_number<std::int64_t>(text.substr(x + 1));
-  if (!width || !height) return std::nullopt;
-  return Sides{*width, *height};
-}
-
-Sides parse_sides(const std::string& text) {
-  const std::optional<Sides> sides = sides_in(text);
-  if (!sides) throw Error("\"" + text + "\" must be WxH, such as 1440x720");
-  return *sides;
-}
-
-/// "WxH", or "WxHxD" of a volume, whose depth is set apart.
-Size parse_size_and_depth(const std::string& text, std::int64_t& depth) {
-  const auto x = text.find('x'), second = x == std::string::npos ? x : text.find('x', x + 1);
-  const bool has_depth = second != std::string::npos;
-  const std::optional<Sides> sides = sides_in(text.substr(0, second));
-  const auto slices = has_depth ? parse_number<std::int64_t>(text.substr(second + 1)) : 1;
-  if (!sides || !slices) {
-    throw Error("\"" + text + "\" must be WxH, such as 1440x720, or WxHxD, such as 256x256x256");
-  }
-  if (has_depth && (*slices < 2 || *slices > Window::max_side_of_volume)) {
-    throw Error(fmt::format("the depth is {}; it must be from 2 to {} voxels; --size WxH makes a plane",
-                            *slices, Window::max_side_of_volume));
-  }
-  depth = *slices;
-  return parse_size(text.substr(0, second));
-}
-
-Size size_of_sides(std::int64_t width, std::int64_t height) {
-  if (std::max(width, height) <= Size::max_side) return {width, height};
-  throw Error(
-      fmt::format("{} pixels are more than the {} that a side of a diagram has at most; vorocl tiles makes "
-                  "larger ones",
-                  std::max(width, height), Size::max_side));
+  Size(width, height);
 }
 
 std::optional<double> parse_threshold(const std::string& text) {
@@ -177,20 +59,8 @@ std::optional<double> parse_threshold(const std::string& text) {
 int parse_width(const std::string& text) {
   const auto width = parse_number<std::int64_t>(text);
   if (!width) throw Error("\"" + text + "\" is no whole number");
-  return size_of_sides(*width, 1).width();
-}
-
-std::optional<Grid> parse_plane(const std::string& text) {
-  if (std::count(text.begin(), text.end(), 'x') == 2) throw Error(volumes_are_for);
-  const auto [width, height] = parse_sides(text);
-  const auto check = [](const char* name, std::int64_t side) {
-    if (side >= 1 && side <= Axis::max_pixels) return;
-    throw Error(
-        fmt::format("the plane's {} is {}; it must be from 1 to {} pixels", name, side, Axis::max_pixels));
-  };
-  check("width", width);
-  check("height", height);
-  return Grid(width, height);
+  check_sides(*width, 1);
+  return static_cast<int>(*width);
 }
 
 void add_mask_option(Command& command, Command& source, SeedOptions& options) {
@@ -208,93 +78,147 @@ void add_mask_option(Command& command, Command& source, SeedOptions& options) {
 
 }  // namespace
 
-void add_seed_options(Command& command, SeedOptions& options, std::size_t least, bool move, Makes makes) {
-  const bool volumes = makes == Makes::volumes_too;
-  Command source = command.add_group("Seeds", "Seeds, from one of these", least, 1);
-  command.begin_section(seed_files);
-  if (least > 0) command.refuse_words([](const std::string& word) { return option_for(word, Sources::all); });
-  constexpr std::size_t most_seeds = Window::max_pixels;
-  const Option random = add_random_option(source, options, most_seeds);
-  const Option points = add_points_option(source, options);
-  add_mask_option(command, source, options);
-  const Option trajectory =
-      source.add("--trajectory", options.trajectory, "Particles of a LAMMPS text dump or an XYZ file")
-          .value_name("FILE");
-
-  Option rng_seed = add_rng_seed_option(command, options);
-  move ? rng_seed.excludes(trajectory) : rng_seed.needs(random);
-  add_columns_option(command, options, volumes).needs(points);
-  add_decimal_option(command, options).needs(points);
-  command.begin_section(grid_section);
-  const std::string about_size =
-      std::string("Width and height of the grid in pixels; with --mask those of the image") +
-      (volumes
-           ? "; with a depth, those of a volume, which takes no --mask, --width, --outside, --domain, --y-up "
-             "or --y-down, and pictures of its slices by id alone"
-           : "");
-  const Option size = command
-                          .add(
-                              "--size",
-                              [&options](const std::string& text) {
-                                options.size = parse_size_and_depth(text, options.depth);
-                              },
-                              about_size)
-                          .value_name(volumes ? "WxH[xD]" : "WxH");
-  command
-      .add_parsed(
-          "--width", options.width, parse_width,
-          "Width of the grid in pixels, instead of --size: the height follows from the bounds, so that "
-          "pixels are square")
-      .value_name("W")
-      .excludes(size);
-  const std::string fitted = move ? "what --fit says of a trajectory" : "the box of a trajectory's frame";
-  const std::string about_bounds = "Rectangle in data units that the grid shows; else " + fitted +
-                                   ", or the domain or the bounding box of the points";
-  add_bounds_option(command, options, about_bounds + (volumes ? "; of a volume X0,Y0,Z0,X1,Y1,Z1" : ""),
-                    volumes);
-  add_margin_option(command, options);
-  add_outside_option(command, options);
-  command
-      .add_parsed(
-          "--domain", options.domain, parse_domain,
-          "Rectangle in data units that repeats along the periodic axes of points; the bounds may be a part "
-          "of it")
-      .value_name("X0,Y0,X1,Y1")
-      .default_text("the bounds")
-      .excludes(command.option("--margin"));
-  add_periodic_option(command, options, volumes,
-                      "Axes along which the plane repeats: distances go the shorter way round, cells reach "
-                      "across the border, and points outside the domain wrap")
-      .default_text("what a trajectory's file says, else none");
-  add_y_options(command, options, "The data's y axis points up (the default for trajectories)");
+Grid parse_grid(const std::string& text, Makes makes) {
+  std::vector<std::int64_t> sides;
+  bool is_good = true;
+  for (std::size_t begin = 0; begin <= text.size();) {
+    const std::size_t end = std::min(text.find('x', begin), text.size());
+    const auto side = parse_number<std::int64_t>(std::string_view(text).substr(begin, end - begin));
+    is_good = is_good && side;
+    sides.push_back(side.value_or(0));
+    begin = end + 1;
+  }
+  const bool volumes = makes == Makes::volumes_too, has_depth = sides.size() == 3;
+  if (has_depth && !volumes) throw Error(volumes_are_for);
+  if (!is_good || (sides.size() != 2 && !has_depth)) {
+    throw Error("\"" + text + "\" must be WxH, such as 1440x720" +
+                (volumes ? ", or WxHxD, such as 256x256x256" : ""));
+  }
+  if (has_depth && (sides[2] < 2 || sides[2] > Window::max_side_of_volume)) {
+    throw Error(fmt::format("the depth is {}; it must be from 2 to {} voxels; --size WxH makes a plane",
+                            sides[2], Window::max_side_of_volume));
+  }
+  const char* const names[] = {"width", "height"};
+  for (std::size_t axis = 0; axis < 2 && makes == Makes::tiles; ++axis) {
+    if (sides[axis] >= 1 && sides[axis] <= Axis::max_pixels) continue;
+    throw Error(fmt::format("the plane's {} is {}; it must be from 1 to {} pixels", names[axis], sides[axis],
+                            Axis::max_pixels));
+  }
+  if (makes != Makes::tiles) check_sides(sides[0], sides[1]);
+  return {sides[0], sides[1], has_depth ? sides[2] : 1};
 }
 
-void add_plane_options(Command& command, PlaneInputOptions& options) {
-  SeedOptions& seeds = options.seeds;
-  Command source = command.add_group("Seeds", "Seeds, from one of these", 1, 1);
+void add_seed_options(Command& command, SeedOptions& options, std::size_t least, bool move, Makes makes) {
+  const bool volumes = makes == Makes::volumes_too, tiles = makes == Makes::tiles;
+  const std::string grid = tiles ? "plane" : "grid";
+  Command source = command.add_group("Seeds", "Seeds, from one of these", least, 1);
   command.begin_section(seed_files);
-  command.refuse_words([](const std::string& word) { return option_for(word, Sources::of_planes); });
-  const Option random = add_random_option(source, seeds, no_label - 1);
-  const Option points = add_points_option(source, seeds);
-  add_mask_option(command, source, seeds);
-  add_rng_seed_option(command, seeds).needs(random);
-  add_columns_option(command, seeds, false).needs(points);
-  add_decimal_option(command, seeds).needs(points);
-  command.begin_section(grid_section);
+  if (least > 0) command.refuse_words([makes](const std::string& word) { return option_for(word, makes); });
+  const std::size_t most_seeds = tiles ? no_label - 1 : Window::max_pixels;
+  const Option random = source.add("--random", options.random, "N uniformly random pixels")
+                            .value_name("N")
+                            .in_range(std::size_t{1}, most_seeds);
+  const Option points = source.add("--points", options.points, "Points of a .csv or .npy file, in data units")
+                            .value_name("FILE");
+  add_mask_option(command, source, options);
+  if (!tiles) {
+    source.add("--trajectory", options.trajectory, "Particles of a LAMMPS text dump or an XYZ file")
+        .value_name("FILE");
+  }
+  Option rng_seed = command.add("--rng-seed", options.rng_seed, "Seed of the random numbers")
+                        .value_name("R")
+                        .default_is_value();
+  move ? rng_seed.excludes(command.option("--trajectory")) : rng_seed.needs(random);
   command
-      .add_parsed("--size", options.size, parse_plane,
-                  "Width and height of the plane in pixels; with --mask those of the image")
-      .value_name("WxH");
-  add_bounds_option(command, seeds,
-                    "Rectangle in data units that the plane shows; else the bounding box of the points");
-  add_margin_option(command, seeds);
-  add_outside_option(command, seeds);
-  add_periodic_option(command, seeds, false,
-                      "Axes along which the plane repeats: distances go the shorter way round, cells reach "
-                      "across the border, and points outside the bounds wrap")
-      .default_text("none");
-  add_y_options(command, seeds, "The data's y axis points up");
-  add_snap_option(command, seeds);
+      .add_parsed(
+          "--columns", options.columns, volumes ? parse_columns_and_z : parse_columns,
+          std::string("Columns of the CSV file, by name or by index from 0; else those that the header "
+                      "names x and y, or lon and lat") +
+              (volumes ? " (and z)" : "") + ", or the only " + (volumes ? "ones" : "two") +
+              " where there is no header")
+      .value_name(volumes ? "X,Y[,Z]" : "X,Y")
+      .needs(points);
+  const auto parse_mark = [](const std::string& mark) {
+    if (mark == "." || mark == ",") return mark == ",";
+    throw Error("\"" + mark + "\" must be a point or a comma");
+  };
+  command
+      .add_parsed("--decimal", options.decimal_comma, parse_mark,
+                  "Decimal mark of the CSV file; with a comma, fields are separated by semicolons or tabs")
+      .value_name("MARK")
+      .default_text(".")
+      .needs(points);
+  command.begin_section(grid_section);
+  const Option size =
+      command
+          .add_parsed(
+              "--size", options.size,
+              [makes](const std::string& text) { return std::optional(parse_grid(text, makes)); },
+              "Width and height of the " + grid + " in pixels; with --mask those of the image" +
+                  (volumes ? "; with a depth, those of a volume, which takes no --mask, --width, "
+                             "--outside, --domain, --y-up or --y-down, and pictures of its slices by "
+                             "id alone"
+                           : ""))
+          .value_name(volumes ? "WxH[xD]" : "WxH");
+  if (!tiles) {
+    command
+        .add_parsed(
+            "--width", options.width, parse_width,
+            "Width of the grid in pixels, instead of --size: the height follows from the bounds, so that "
+            "pixels are square")
+        .value_name("W")
+        .excludes(size);
+  }
+  const std::string fitted = move ? "what --fit says of a trajectory" : "the box of a trajectory's frame";
+  const Option bounds =
+      command
+          .add_parsed(
+              "--bounds", options.bounds,
+              [volumes](const std::string& text) { return parse_bounds(text, volumes); },
+              "Rectangle in data units that the " + grid + " shows; else " +
+                  (tiles ? "" : fitted + ", or the domain or ") + "the bounding box of the points" +
+                  (volumes ? "; of a volume X0,Y0,Z0,X1,Y1,Z1" : ""))
+          .value_name("X0,Y0,X1,Y1");
+  const Option margin =
+      command
+          .add("--margin", options.margin,
+               "Without --bounds: how much farther than the points' bounding box the picture goes all round, "
+               "in percent of its longer side")
+          .value_name("P")
+          .default_is_value()
+          .in_range(0.0, 1000.0)
+          .needs(points)
+          .excludes(bounds);
+  const Choices<std::optional<Outside>> outside = {{"count", Outside::count}, {"refuse", Outside::refuse}};
+  command
+      .add_choice(
+          "--outside", options.outside, outside,
+          "Points outside the bounds: they own the pixels that are nearest to them, or they are an error")
+      .default_text("count");
+  if (!tiles) {
+    command
+        .add_parsed(
+            "--domain", options.domain, parse_domain,
+            "Rectangle in data units that repeats along the periodic axes of points; the bounds may be a "
+            "part of it")
+        .value_name("X0,Y0,X1,Y1")
+        .default_text("the bounds")
+        .excludes(margin);
+  }
+  Choices<std::optional<Axes>> axes;  // some of x and y or, where there are volumes, of all three
+  for (int some = 0; some <= static_cast<int>(volumes ? Axes::xyz : Axes::xy); ++some)
+    axes.emplace_back(to_string(static_cast<Axes>(some)), static_cast<Axes>(some));
+  command
+      .add_choice("--periodic", options.periodic, axes,
+                  std::string("Axes along which the plane repeats: distances go the shorter way round, cells "
+                              "reach across the border, and points outside the ") +
+                      (tiles ? "bounds" : "domain") + " wrap")
+      .default_text(tiles ? "none" : "what a trajectory's file says, else none");
+  const Option up = command.add(
+      "--y-up", options.y_up,
+      std::string("The data's y axis points up") + (tiles ? "" : " (the default for trajectories)"));
+  command.add("--y-down", options.y_down, "The data's y axis points down (the default for points)")
+      .excludes(up);
 }
 
 void add_snap_option(Command& command, SeedOptions& options, const std::string& judges) {
@@ -440,11 +364,6 @@ void add_motion_options(Command& command, MotionOptions& options) {
                   "periodic")
       .default_text("reflect")
       .excludes(trajectory);
-}
-
-Size parse_size(const std::string& text) {
-  const auto [width, height] = parse_sides(text);
-  return size_of_sides(width, height);
 }
 
 }  // namespace vorocl::command

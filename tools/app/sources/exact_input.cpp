@@ -31,7 +31,7 @@ bool has_depth(const SeedOptions& options) {
 
 /// See read_exact_input(). Checks the options.
 bool is_volume(const SeedOptions& options) {
-  const bool is_told = options.depth > 1 || (options.bounds && options.bounds->is_box()) ||
+  const bool is_told = options.is_volume() || (options.bounds && options.bounds->is_box()) ||
                        (options.periodic && has_z(*options.periodic)) ||
                        (options.columns && !options.columns->z.empty());
   const bool may_be_told = !options.bounds && !options.columns && !options.domain && options.mask.empty();

@@ -111,7 +111,7 @@ std::unique_ptr<MovingSeeds> read_moving_seeds(const SeedOptions& seeds, const M
                                                const Interruption& interruption) {
   const bool needs_all = motion.fit == Fit::all && !seeds.bounds;
   if (!seeds.trajectory.empty()) {
-    const bool is_volume = seeds.depth > 1;
+    const bool is_volume = seeds.is_volume();
     is_volume ? check_volume_options(seeds) : check_seed_options(seeds);
     return std::make_unique<Trajectory>(
         seeds, motion,

@@ -162,51 +162,47 @@ PlaneFacts make_random(const SeedOptions& options, const Grid& plane, const Plan
 
 }  // namespace
 
-Grid PlaneInputOptions::plane() const {
-  if (!size) throw UsageError("--size WxH is required");
-  return {size->width(), size->height(), seeds.periodic.value_or(Axes::none)};
+Grid plane_of(const SeedOptions& options) {
+  if (!options.size) throw UsageError("--size WxH is required");
+  return options.grid();
 }
 
-std::unique_ptr<MaskRows> open_plane_mask(PlaneInputOptions& options) {
-  const SeedOptions& seeds = options.seeds;
-  if (seeds.mask.empty()) return nullptr;
-  auto rows = std::make_unique<MaskRows>(seeds.mask, seeds.threshold);
+std::unique_ptr<MaskRows> open_plane_mask(SeedOptions& options) {
+  if (options.mask.empty()) return nullptr;
+  auto rows = std::make_unique<MaskRows>(options.mask, options.threshold);
   for (const std::string& note : rows->notes()) print_note(note);
   const Grid plane(rows->width(), rows->height());
-  check_mask_size(seeds.mask, plane, options.size);
+  check_mask_size(options.mask, plane, options.size);
   options.size = plane;
   return rows;
 }
 
-void check_plane_options(const PlaneInputOptions& options) {
-  const SeedOptions& seeds = options.seeds;
-  if (!seeds.points.empty()) {
-    as_usage([&] { check_extension(seeds.points, {".csv", ".npy"}); });
-    refuse_csv_options(seeds);
-    if (seeds.bounds) check_bounds(*seeds.bounds, options.plane().periodic());
+void check_plane_options(const SeedOptions& options) {
+  if (!options.points.empty()) {
+    as_usage([&] { check_extension(options.points, {".csv", ".npy"}); });
+    refuse_csv_options(options);
+    if (options.bounds) check_bounds(*options.bounds, plane_of(options).periodic());
     return;
   }
-  const char* const given = option_of_data(seeds);
+  const char* const given = option_of_data(options);
   if (given != nullptr) throw UsageError(std::string(given) + " needs --points");
-  if (seeds.mask.empty()) options.plane();
+  if (options.mask.empty()) plane_of(options);
 }
 
-PlaneFacts read_plane_seeds(const PlaneInputOptions& options, const PlaneReading& reading) {
-  const SeedOptions& seeds = options.seeds;
-  return seeds.points.empty() ? make_random(seeds, options.plane(), reading)
-                              : read_points(seeds, options.plane(), reading);
+PlaneFacts read_plane_seeds(const SeedOptions& options, const PlaneReading& reading) {
+  return options.points.empty() ? make_random(options, plane_of(options), reading)
+                                : read_points(options, plane_of(options), reading);
 }
 
-PlaneRows rows_of_seeds(const PlaneInputOptions& options, const PlaneFacts& facts) {
-  const SeedOptions& seeds = options.seeds;
-  const auto width = static_cast<std::size_t>(options.plane().width());
-  if (seeds.random > 0) {
-    return {{}, [plane = options.plane(), seed = seeds.rng_seed](std::uint64_t id) {
+PlaneRows rows_of_seeds(const SeedOptions& options, const PlaneFacts& facts) {
+  const auto width = static_cast<std::size_t>(plane_of(options).width());
+  if (options.random > 0) {
+    return {{}, [plane = plane_of(options), seed = options.rng_seed](std::uint64_t id) {
               return std::pair(random_pixel(plane, static_cast<std::uint32_t>(id), seed), CsvFields());
             }};
   }
-  if (!seeds.mask.empty()) {
-    auto rows = std::make_shared<MaskRows>(seeds.mask, seeds.threshold);
+  if (!options.mask.empty()) {
+    auto rows = std::make_shared<MaskRows>(options.mask, options.threshold);
     return {{},
             [=, x = width, y = 0.0, seen = std::uint64_t{0},
              pixels = std::vector<std::uint8_t>()](std::uint64_t id) mutable {
@@ -222,8 +218,8 @@ PlaneRows rows_of_seeds(const PlaneInputOptions& options, const PlaneFacts& fact
               return std::pair(Point{static_cast<double>(x) - 0.5, y - 0.5}, CsvFields());
             }};
   }
-  if (extension_of(seeds.points) == ".npy") {
-    auto points = std::make_shared<NpyPoints>(seeds.points);
+  if (extension_of(options.points) == ".npy") {
+    auto points = std::make_shared<NpyPoints>(options.points);
     return {{},
             [=, place = facts.place, first = std::uint64_t{1},
              block = std::vector<Point>()](std::uint64_t id) mutable {
@@ -235,10 +231,10 @@ PlaneRows rows_of_seeds(const PlaneInputOptions& options, const PlaneFacts& fact
               return std::pair(place(block[id - first]), CsvFields());
             }};
   }
-  CsvOptions csv = seeds.csv();
+  CsvOptions csv = options.csv();
   csv.reads_ids = false;
-  auto reader = std::make_shared<CsvReader>(seeds.points, csv);
-  const auto advance = [reader, file = seeds.points] {
+  auto reader = std::make_shared<CsvReader>(options.points, csv);
+  const auto advance = [reader, file = options.points] {
     if (!reader->next()) throw Error(file + " has changed while it was read");
   };
   advance();

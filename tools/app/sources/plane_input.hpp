@@ -16,21 +16,15 @@
 
 namespace vorocl::command {
 
-/// The seeds' options that a plane has (points, a mask or random ones), and its size instead of a grid's.
-struct PlaneInputOptions {
-  SeedOptions seeds;
-  std::optional<Grid> size;  // as given: without periodic axes
-
-  /// The plane itself, in pixels. Throws UsageError without a size.
-  Grid plane() const;
-};
+/// The plane itself, in pixels. Throws UsageError without a size.
+Grid plane_of(const SeedOptions& options);
 
 /// Opens the mask, if one is asked for, whose size is the plane's. Throws Error if it cannot be read, and for
 /// another size.
-std::unique_ptr<MaskRows> open_plane_mask(PlaneInputOptions& options);
+std::unique_ptr<MaskRows> open_plane_mask(SeedOptions& options);
 
 /// What no parser can say. Throws UsageError, and Error for bounds that have no scale.
-void check_plane_options(const PlaneInputOptions& options);
+void check_plane_options(const SeedOptions& options);
 
 /// How many points a file has, how many of them are there, and the rectangle that these fill.
 struct Survey {
@@ -68,11 +62,11 @@ struct PlaneRows {
 };
 
 /// Opens the seeds' file once more, or makes random ones again. Throws Error if that fails.
-PlaneRows rows_of_seeds(const PlaneInputOptions& options, const PlaneFacts& facts);
+PlaneRows rows_of_seeds(const SeedOptions& options, const PlaneFacts& facts);
 
 /// Reads the seeds, or makes them, in blocks. Throws Error if it is told to stop, and if a file is bad or
 /// changes, which names the first point that cannot be a seed; warns on standard error as read_input().
-PlaneFacts read_plane_seeds(const PlaneInputOptions& options, const PlaneReading& reading);
+PlaneFacts read_plane_seeds(const SeedOptions& options, const PlaneReading& reading);
 
 /// Reads a mask. Throws Error if it is told to stop, and if the file is damaged or changes.
 PlaneFacts read_plane_mask(const std::string& path, MaskRows& rows, const std::function<bool()>& stops,

@@ -44,7 +44,7 @@ Input plane_from_points(const SeedOptions& options) {
   const std::vector<Point>& points = read.points;
   try {
     const Mapping mapping = mapping_of(options, points);
-    const Size picture = options.size ? *options.size : size_of_width(mapping.bounds, options.width);
+    const Size picture = picture_size(options, mapping.bounds);
     const MappedPoints mapped = map_points(points, mapping, picture, read.ids);
     warn_of_scales(mapping.bounds, picture.grid());
     if (mapping.periodic != Axes::none && !options.bounds && !options.domain) {
@@ -69,8 +69,7 @@ Input plane_from_points(const SeedOptions& options) {
 Input plane_from_mask(const SeedOptions& options) {
   const Mask mask = read_mask(options.mask, options.threshold);
   for (const std::string& note : mask.notes) print_note(note);
-  check_mask_size(options.mask, mask.size.grid(),
-                  options.size ? std::optional<Grid>(options.size->grid()) : std::nullopt);
+  check_mask_size(options.mask, mask.size.grid(), options.size);
   const Grid grid = mask.size.grid(periodic_axes(options));
   return {
       {mask.size, grid},
@@ -84,8 +83,8 @@ constexpr std::size_t most_on_host = std::size_t{1} << 20;
 
 Input plane_at_random(const SeedOptions& options) {
   if (!options.size) throw UsageError("--size WxH is required with --random");
-  const Grid grid = options.size->grid(periodic_axes(options));
-  return {{*options.size, grid},
+  const Grid grid = options.grid();
+  return {{Size(grid), grid},
           [grid, options](const Device& device) {
             if (options.random > most_on_host) {
               return Seeds::random(device, grid, options.random, options.rng_seed);
@@ -100,6 +99,10 @@ Input plane_at_random(const SeedOptions& options) {
 }
 
 }  // namespace
+
+Size picture_size(const SeedOptions& options, const Bounds& bounds) {
+  return options.size ? Size(*options.size) : size_of_width(bounds, options.width);
+}
 
 void check_mask_size(const std::string& path, const Grid& mask, const std::optional<Grid>& asked_for) {
   if (!asked_for || *asked_for == mask) return;
@@ -192,7 +195,7 @@ bool points_up(const SeedOptions& options) {
 }
 
 Input read_input(const SeedOptions& options) {
-  const bool is_volume = options.depth > 1;
+  const bool is_volume = options.is_volume();
   is_volume ? check_volume_options(options) : check_seed_options(options);
   if (!options.trajectory.empty()) return *TrajectorySeeds(options, options.frame).next();
   if (is_volume) return read_volume_input(options);

@@ -27,9 +27,8 @@ struct SeedOptions {
   std::string mask;
   std::optional<double> threshold;  // of the mask: see MaskRows
   std::string trajectory;
-  int frame = 0;  // of the trajectory
-  std::optional<Size> size;
-  std::int64_t depth = 1;  // more: a volume, which some commands make: see volume_input.hpp
+  int frame = 0;             // of the trajectory
+  std::optional<Grid> size;  // without periodic axes; some commands make volumes: see volume_input.hpp
   int width = 0;
   std::optional<Bounds> bounds;    // a box of a volume
   double margin = 0;               // without them, in percent of the longer side of the points' box
@@ -49,6 +48,11 @@ struct SeedOptions {
   bool are_radii = false;             // weights are squares of that column
   std::optional<MeasureUnits> units;  // else those of the data, where there are bounds
   std::string keeps_inside;           // see note_outside()
+
+  bool is_volume() const { return size && size->is_volume(); }
+
+  /// The grid of this size in pixels, which is told.
+  Grid grid() const { return {size->width(), size->height(), size->depth(), periodic.value_or(Axes::none)}; }
 
   const std::string& read_column() const { return value_column.empty() ? weight_column : value_column; }
   CsvOptions csv() const { return {columns, read_column(), decimal_comma, keep}; }
@@ -81,6 +85,9 @@ CsvPoints read_points(const SeedOptions& options, bool has_z = false);
 
 /// Throws UsageError for options of .csv files, if the points are no such file.
 void refuse_csv_options(const SeedOptions& options);
+
+/// The size of the picture of these bounds, as it is told or by its width. Throws Error as size_of_width().
+Size picture_size(const SeedOptions& options, const Bounds& bounds);
 
 /// Throws Error if a mask is not of the size that was asked for.
 void check_mask_size(const std::string& path, const Grid& mask, const std::optional<Grid>& asked_for);

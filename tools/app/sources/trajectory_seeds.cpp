@@ -180,14 +180,13 @@ std::optional<Bounds> TrajectorySeeds::shown_bounds() {
 }
 
 Size TrajectorySeeds::size_of_picture(const std::optional<Bounds>& bounds) const {
-  if (options_.size) return *options_.size;
-  if (!bounds) {
+  if (!options_.size && !bounds) {
     throw Error(options_.trajectory +
                 ": the frame has neither a box nor particles to tell the height by: give --size "
                 "instead of --width, or --bounds");
   }
   try {
-    return size_of_width(*bounds, options_.width);
+    return picture_size(options_, bounds.value_or(Bounds()));
   } catch (const Error& error) {
     throw Error(options_.trajectory + ": " + error.what());
   }

@@ -88,7 +88,7 @@ class TrajectorySeeds {
   std::optional<Input> next();
 
  private:
-  bool is_volume() const { return options_.depth > 1; }
+  bool is_volume() const { return options_.is_volume(); }
   Input volume();
   Input plane();
   /// What the picture shows; none if the frame, and those before it, have neither a box nor particles.

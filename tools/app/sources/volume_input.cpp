@@ -43,8 +43,8 @@ Grid grid_of(const SeedOptions& options, const std::array<Side, 3>& sides, Axes 
       throw Error(fmt::format("there is no extent in {}, which is to be periodic", names[i]));
     }
   }
-  const Size size = options.size.value_or(Size(1, 1));
-  return {axis(size.width(), 0), axis(size.height(), 1), axis(options.size ? options.depth : 2, 2)};
+  const Grid voxels = options.size.value_or(Grid(1, 1, 2));
+  return {axis(voxels.width(), 0), axis(voxels.height(), 1), axis(voxels.depth(), 2)};
 }
 
 void check_inside(const std::vector<Point>& points, const std::vector<std::uint32_t>& ids, const Grid& grid) {
@@ -186,8 +186,7 @@ Input input_from_points(const SeedOptions& options) {
 }
 
 Input input_at_random(const SeedOptions& options) {
-  const Grid grid(options.size->width(), options.size->height(), options.depth,
-                  options.periodic.value_or(Axes::none));
+  const Grid grid = options.grid();
   return {view_of_volume(grid, true),
           [grid, count = options.random, seed = options.rng_seed](const Device& device) {
             return Seeds::random(device, grid, count, seed);
