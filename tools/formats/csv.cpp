@@ -257,11 +257,7 @@ namespace {
 
 Columns columns_of(const std::string& text, std::size_t most, const std::string& what) {
   std::vector<std::string> names;
-  for (std::size_t begin = 0; begin <= text.size();) {
-    const auto comma = std::min(text.find(',', begin), text.size());
-    names.emplace_back(trimmed(text.substr(begin, comma - begin)));
-    begin = comma + 1;
-  }
+  for (const std::string_view part : parts_of(text, ',')) names.emplace_back(trimmed(part));
   const bool some_empty = std::find(names.begin(), names.end(), "") != names.end();
   if (names.size() < 2 || names.size() > most || some_empty) {
     throw Error("\"" + text + "\" must be two columns, such as x,y or 0,1" + what);

@@ -43,6 +43,16 @@ std::optional<T> parse_number(std::string_view text) {
   return result.ec == std::errc() ? std::optional(value) : std::nullopt;
 }
 
+/// The parts of a text between separators, one more than there are of these.
+inline std::vector<std::string_view> parts_of(std::string_view text, char separator) {
+  for (std::vector<std::string_view> parts;;) {
+    const std::size_t end = text.find(separator);
+    parts.push_back(text.substr(0, end));
+    if (end == text.npos) return parts;
+    text.remove_prefix(end + 1);
+  }
+}
+
 /// What a column has row by row: numbers (NaN: absent), or those by which its texts stand in `texts`.
 struct ColumnValues {
   std::vector<double> numbers;

@@ -1,18 +1,23 @@
-// vorocl cells: one diagram, and what is measured of its cells.
+// vorocl cells: one diagram or exact cells, and what is measured of them.
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <utility>
 
 #include "app/commands/commands.hpp"
-#include "app/commands/exact_cells.hpp"
 #include "app/commands/volume.hpp"
 #include "app/options/option_groups.hpp"
+#include "app/outputs/exact_cell_files.hpp"
 #include "app/outputs/measures.hpp"
+#include "app/sources/exact_input.hpp"
 #include "app/sources/volume_input.hpp"
 #include "app/terminal/console.hpp"
 #include "app/terminal/end_of_run.hpp"
 #include "app/terminal/selected_device.hpp"
+#include "formats/files.hpp"
 
 namespace vorocl::command {
 
@@ -26,8 +31,6 @@ struct CellsFiles {
   FileRequest border = {border_kind(), ""};
   FileRequest labels = {labels_kind(), ""};
   FileRequest polygons = {polygons_kind(), ""};  // of exact cells
-
-  std::vector<FileRequest> of_exact() const { return {cells, adjacency, polygons}; }
 
   /// Of a plane, or of a volume, which has no borders.
   std::vector<FileRequest> of(bool is_volume) const {
@@ -49,7 +52,9 @@ struct CellsOptions {
   bool exact = false;
 
   bool is_volume() const { return seeds.is_volume(); }
-  std::vector<FileRequest> requests() const { return files.of(is_volume()); }
+  std::vector<FileRequest> requests() const {
+    return exact ? std::vector{files.cells, files.adjacency, files.polygons} : files.of(is_volume());
+  }
 };
 
 /// `beyond`: how many pixels are too far away, where that is asked for.
@@ -90,6 +95,59 @@ void print_result(const CellsOptions& options, const Seeds& seeds, const Report&
   print_written(requested(options.requests()));
 }
 
+void print_exact_result(const CellsOptions& options, const Seeds& seeds, ExactCellRows& rows,
+                        const ExactCellsCheck& check, const Report& report) {
+  const Grid& grid = seeds.grid();
+  const bool is_volume = grid.is_volume();
+  std::vector<double> corners;
+  for (const bool is_end : {false, true}) {
+    const auto add = [&](const Axis& axis) { corners.push_back(is_end ? axis.to() : axis.from()); };
+    add(grid.x());
+    add(grid.y());
+    if (is_volume) add(grid.z());
+  }
+  const std::string measure = is_volume ? "volume" : "area";
+  if (options.json) {
+    print_json(Json{{"exact", true},
+                    {"device", seeds.device().name()},
+                    {is_volume ? "box" : "rectangle", corners},
+                    {"periodic", to_string(grid.periodic())},
+                    {"cells", rows.order().size()},
+                    {"empty_cells", rows.empty_cells()},
+                    {"mean_" + measure, rows.mean_area()},
+                    {measure + "_deviation", rows.area_deviation()},
+                    {"pairs", rows.pair_count()},
+                    {measure, check.area},
+                    {"not_mutual", check.not_mutual},
+                    {"uncertified", check.uncertified},
+                    {"milliseconds", report.milliseconds()},
+                    {"host_milliseconds", report.host_milliseconds()}});
+    return;
+  }
+  print("exact cells: {} in {} in {:.1f} ms, on {}\n", counted(seeds.alive(), "seed"),
+        fmt::format("{}", fmt::join(corners, ",")), report.milliseconds(), seeds.device().name());
+  if (rows.empty_cells() > 0) {
+    print("{} without a cell: another one has the same place{}\n", counted(rows.empty_cells(), "seed"),
+          rows.input().values.numbers.empty() ? "" : ", or greater weights around it have its cell");
+  }
+  print("the mean {} is {:.6g}, with a deviation of {:.6g}\n", measure, rows.mean_area(),
+        rows.area_deviation());
+  print("{} between cells\n", counted(rows.pair_count(), is_volume ? "face" : "edge"));
+  print_written(requested(options.requests()));
+}
+
+/// GeoJSON without a system means longitudes and latitudes, which readers take others for without a word.
+void note_degrees(const std::string& path, const SeedOptions& seeds, const Grid& grid) {
+  const std::string extension = extension_of(path);
+  const bool is_geojson = extension == ".geojson" || extension == ".json";
+  const double x = std::max(std::abs(grid.x().from()), std::abs(grid.x().to())),
+               y = std::max(std::abs(grid.y().from()), std::abs(grid.y().to()));
+  if (seeds.points.empty() || seeds.crs || !is_geojson || (x <= 360 && y <= 180)) return;
+  print_note(
+      path +
+      " says no coordinate reference system, so readers take its numbers for degrees; --crs EPSG:N says it");
+}
+
 /// The cells without a diagram. Throws UsageError for options that say something of one.
 void run_exact(const Command& command, const CellsOptions& options) {
   for (const char* name :
@@ -100,7 +158,24 @@ void run_exact(const Command& command, const CellsOptions& options) {
   if (in_pixels(options.seeds)) {
     throw UsageError("--exact measures in the units of the data, and --units px says pixels");
   }
-  run_exact_cells({options.seeds, options.device, options.files.of_exact(), options.json});
+
+  std::vector<RequestedOutput> outputs = open_outputs(options.requests(), options.seeds);
+  Input input = read_exact_input(options.seeds);
+  for (RequestedOutput& output : outputs)
+    output.request = of_exact_cells(output.request, input.view.is_volume());
+  const Device device = select_device(options.device);
+  const FinishAtEnd finish(device);
+  const Seeds seeds = input.place(device);
+  ExactCellsResult result;
+  const Report report = exact_cells(seeds, result, {input.values.numbers});
+  const auto rows = std::make_shared<ExactCellRows>(seeds, result, std::move(input), options.seeds);
+  MeasureBuffers buffers;
+  Measures measures(rows, buffers);
+  for (const RequestedOutput& output : outputs) {
+    output.request.kind.write(output.file, measures);
+    note_degrees(output.file.path(), options.seeds, seeds.grid());
+  }
+  print_exact_result(options, seeds, *rows, result.check(), report);
 }
 
 void run(const CellsOptions& options) {
@@ -153,9 +228,9 @@ void add_cells(CommandLine& line) {
   add_file_option(command, files.polygons).needs(exact);
   add_weight_options(command, options->seeds, exact);
   command.set_work([command, options] {
-    check_crs(options->seeds.crs, options->exact ? std::vector<std::string>{options->files.polygons.path}
-                                                 : std::vector<std::string>{options->files.labels.path,
-                                                                            options->files.distance.path});
+    std::vector<std::string> paths;
+    for (const FileRequest& request : options->requests()) paths.push_back(request.path);
+    check_crs(options->seeds.crs, paths);
     if (options->exact) return run_exact(command, *options);
     if (options->is_volume()) {
       if (command.has("--border")) refuse_in_volumes("--border");

@@ -22,12 +22,10 @@ constexpr double million = 1e6;
 std::optional<PlanePart> parse_part(const std::string& text) {
   const Error error("\"" + text + "\" must be X0,Y0,X1,Y1: four whole numbers with X0 < X1 and Y0 < Y1");
   std::vector<std::int64_t> values;
-  for (std::size_t begin = 0; begin <= text.size();) {
-    const auto comma = std::min(text.find(',', begin), text.size());
-    const auto value = parse_number<std::int64_t>(std::string_view(text).substr(begin, comma - begin));
+  for (const std::string_view part : parts_of(text, ',')) {
+    const auto value = parse_number<std::int64_t>(part);
     if (!value || *value < 0) throw error;
     values.push_back(*value);
-    begin = comma + 1;
   }
   if (values.size() != 4 || values[0] >= values[2] || values[1] >= values[3]) throw error;
   return PlanePart{values[0], values[1], values[2] - values[0], values[3] - values[1]};

@@ -81,12 +81,10 @@ void add_mask_option(Command& command, Command& source, SeedOptions& options) {
 Grid parse_grid(const std::string& text, Makes makes) {
   std::vector<std::int64_t> sides;
   bool is_good = true;
-  for (std::size_t begin = 0; begin <= text.size();) {
-    const std::size_t end = std::min(text.find('x', begin), text.size());
-    const auto side = parse_number<std::int64_t>(std::string_view(text).substr(begin, end - begin));
+  for (const std::string_view part : parts_of(text, 'x')) {
+    const auto side = parse_number<std::int64_t>(part);
     is_good = is_good && side;
     sides.push_back(side.value_or(0));
-    begin = end + 1;
   }
   const bool volumes = makes == Makes::volumes_too, has_depth = sides.size() == 3;
   if (has_depth && !volumes) throw Error(volumes_are_for);

@@ -33,23 +33,21 @@ void check_bounds(const Bounds& bounds, Axes axes) {
 }
 
 Bounds parse_bounds(const std::string& text, bool of_volumes) {
-  const auto commas = std::count(text.begin(), text.end(), ',');
-  const bool has_z = of_volumes && commas == 5;
+  const std::vector<std::string_view> parts = parts_of(text, ',');
   std::vector<double> values;
-  for (std::size_t begin = 0; begin <= text.size();) {
-    const auto comma = std::min(text.find(',', begin), text.size());
-    const auto value = parse_number<double>(std::string_view(text).substr(begin, comma - begin));
+  for (const std::string_view part : parts) {
+    const auto value = parse_number<double>(part);
     if (value && std::isfinite(*value)) values.push_back(*value);
-    begin = comma + 1;
   }
+  const bool has_z = of_volumes && parts.size() == 6;
   const std::size_t axes = has_z ? 3 : 2;
-  bool is_good = commas == (has_z ? 5 : 3) && values.size() == 2 * axes;
+  bool is_good = parts.size() == 2 * axes && values.size() == parts.size();
   for (std::size_t axis = 0; is_good && axis < axes; ++axis) is_good = values[axis] < values[axis + axes];
   if (is_good && has_z) return {values[0], values[1], values[3], values[4], values[2], values[5]};
   if (is_good) return {values[0], values[1], values[2], values[3]};
   throw Error(
       "\"" + text + "\" must be " +
-      (of_volumes && commas != 3
+      (of_volumes && parts.size() != 4
            ? "X0,Y0,X1,Y1 or, of a volume, X0,Y0,Z0,X1,Y1,Z1: numbers with X0 < X1, Y0 < Y1 and Z0 < Z1"
            : "X0,Y0,X1,Y1: four numbers with X0 < X1 and Y0 < Y1"));
 }
