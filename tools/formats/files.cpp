@@ -92,24 +92,6 @@ SteadyFile::State SteadyFile::now() const {
   return state;
 }
 
-Lines read_lines(const std::string& path, const std::string& kind) {
-  constexpr std::size_t longest_line = 1 << 16;
-  const Error other(path + " is no " + kind + "; give another file");
-  std::error_code ignored;
-  if (fs::exists(path, ignored) && !fs::is_regular_file(path, ignored)) throw other;
-  std::ifstream file = open_to_read(path);
-  Lines lines;
-  for (std::string line; std::getline(file, line);) {
-    if (line.size() > longest_line) throw other;
-    if (file.eof()) {
-      lines.cut_off = line;
-    } else {
-      lines.whole.push_back(line);
-    }
-  }
-  return lines;
-}
-
 bool may_be_one_file(const std::string& a, const std::string& b) {
   const std::string whole_a = whole_path(a), whole_b = whole_path(b);
   return !whole_a.empty() && (whole_a == whole_b || gives(whole_a, whole_b) || gives(whole_b, whole_a));

@@ -38,16 +38,6 @@ class SteadyFile {
   State before_;
 };
 
-/// The lines of a file that grew by whole ones, without their ends.
-struct Lines {
-  std::vector<std::string> whole;
-  std::string cut_off;  // a last one that has no end
-};
-
-/// Throws Error as open_to_read(), and for a pipe or a device, or if a line is longer than 64 KiB: then the
-/// file is no `kind` ("evaluation").
-Lines read_lines(const std::string& path, const std::string& kind);
-
 /// Whether two paths lead to one file. Either may be a pattern with a place for a number, such as
 /// frames/%05d.png: then whether the files that it gives may include the other's. An empty path leads
 /// nowhere.

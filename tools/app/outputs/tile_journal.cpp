@@ -105,15 +105,21 @@ void TileJournal::lock() {
 
 void TileJournal::refuse_other() const { throw Error("another run is writing " + path_); }
 
+void TileJournal::refuse_file() const {
+  throw Error(path_ + " is no journal of a run; " + how_to_start_again(path_));
+}
+
 void TileJournal::read() {
   std::vector<std::string> there;
-  for (const std::string& line : read_lines(path_, "journal").whole) {
+  std::error_code ignored;
+  if (!std::filesystem::is_regular_file(path_, ignored)) refuse_file();
+  std::ifstream file = open_to_read(path_);
+  for (std::string line; std::getline(file, line) && !file.eof();) {  // the last one may be cut off
     there.push_back(line.substr(0, line.rfind(' ')));
     if (there.front() != title) break;
     if (sealed(there.back(), hash_) != line) refuse_damage();
   }
-  if (there.empty() || there.front() != title)
-    throw Error(path_ + " is no journal of a run; " + how_to_start_again(path_));
+  if (there.empty() || there.front() != title) refuse_file();
   const std::vector<std::string> head = head_of(run_);
   const auto end = std::find(there.begin(), there.end(), end_of_run);
   const std::vector<std::string> head_there(there.begin(), end == there.end() ? end : end + 1);

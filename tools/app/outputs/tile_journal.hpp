@@ -83,6 +83,7 @@ class TileJournal {
   void append(const std::vector<std::string>& lines);
   void lock();
   [[noreturn]] void refuse_other() const;
+  [[noreturn]] void refuse_file() const;
   [[noreturn]] void refuse_damage() const;
   [[noreturn]] void refuse_run(const std::string& there, const std::string& here) const;
 
