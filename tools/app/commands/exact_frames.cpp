@@ -82,9 +82,9 @@ void print_result(const ExactFramesOptions& options, const ExactCourse& course, 
 void run_exact_frames(const ExactFramesOptions& options) {
   const Interruption interruption;  // before there are files
   check_outputs(as_usage([&] { return requested_files(options.output); }), options.seeds);
+  check_any(options.output.files);
   ExactFrames frames(options.seeds);
   FrameWriterOptions output = options.output;
-  check_any(output.files);
   for (FileRequest& request : output.files) request = of_exact_cells(request, frames.is_volume());
   FrameWriter writer(output);
   while (frames.count() < options.frames.first && frames.skip()) {
