@@ -8,7 +8,7 @@
 
 #include "fixture.hpp"
 #include "formats/files.hpp"
-#include "formats/images/png.hpp"
+#include "formats/images/pictures.hpp"
 #include "temporary_folder.hpp"
 
 using namespace vorocl;

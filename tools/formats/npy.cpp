@@ -6,6 +6,7 @@
 #include <fstream>
 #include <functional>
 #include <numeric>
+#include <type_traits>
 #include <utility>
 
 #include "formats/files.hpp"
@@ -33,16 +34,12 @@ namespace {
 const char magic[] = "\x93NUMPY";
 constexpr std::size_t magic_size = sizeof magic - 1;
 
+/// Of numbers without a sign, and of floats: "<f4".
 template <typename T>
-constexpr const char* type_name = nullptr;
-template <>
-constexpr const char* type_name<std::uint8_t> = "|u1";
-template <>
-constexpr const char* type_name<std::uint32_t> = "<u4";
-template <>
-constexpr const char* type_name<float> = "<f4";
-template <>
-constexpr const char* type_name<double> = "<f8";
+std::string npy_type() {
+  const char* const kind = std::is_floating_point_v<T> ? "f" : "u";
+  return (sizeof(T) == 1 ? "|" : "<") + (kind + std::to_string(sizeof(T)));
+}
 
 /// The text behind "'key':" in the header, a Python dictionary that NumPy writes in one line.
 std::string header_value(const std::string& header, const std::string& key, const std::string& path) {
@@ -274,7 +271,7 @@ template void write_npy(const OutputFile&, const Raster&, const std::vector<floa
 
 template <typename T>
 std::string npy_header(const std::vector<std::size_t>& shape) {
-  std::string header = std::string("{'descr': '") + type_name<T> +
+  std::string header = std::string("{'descr': '") + npy_type<T>() +
                        "', 'fortran_order': False, 'shape': " + to_string(shape) + ", }";
   // The values start at a multiple of 64 bytes: behind magic, version (2 bytes), length (2 bytes) and header.
   header.resize((magic_size + 4 + header.size() + 64) / 64 * 64 - magic_size - 5, ' ');

@@ -1,27 +1,14 @@
 #include "formats/numbers.hpp"
 
-#include <cmath>
 #include <cstdint>
 #include <cstring>
 #include <map>
+#include <opencv2/core.hpp>
 #include <utility>
 
 namespace vorocl::command {
 
 namespace {
-
-/// A float of 16 bits: a sign, 5 bits of an exponent, 10 of a fraction.
-struct Half {
-  std::uint16_t bits;
-
-  explicit operator double() const {
-    const int exponent = bits >> 10 & 31, fraction = bits & 1023;
-    const double size = exponent == 31  ? (fraction == 0 ? HUGE_VAL : NAN)
-                        : exponent == 0 ? std::ldexp(fraction, -24)
-                                        : std::ldexp(1024 + fraction, exponent - 25);
-    return (bits >> 15) != 0 ? -size : size;
-  }
-};
 
 template <typename T>
 NumberType type_of() {
@@ -42,7 +29,7 @@ const NumberType* number_type(char kind, std::size_t size) {
       {{'u', 2}, type_of<std::uint16_t>()}, {{'u', 4}, type_of<std::uint32_t>()},
       {{'u', 8}, type_of<std::uint64_t>()}, {{'i', 1}, type_of<std::int8_t>()},
       {{'i', 2}, type_of<std::int16_t>()},  {{'i', 4}, type_of<std::int32_t>()},
-      {{'i', 8}, type_of<std::int64_t>()},  {{'f', 2}, type_of<Half>()},
+      {{'i', 8}, type_of<std::int64_t>()},  {{'f', 2}, type_of<cv::float16_t>()},
       {{'f', 4}, type_of<float>()},         {{'f', 8}, type_of<double>()}};
   const auto found = all.find({kind, size});
   return found == all.end() ? nullptr : &found->second;

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <cstddef>
+#include <type_traits>
 
 #include "formats/raster_files.hpp"
 
@@ -8,14 +9,11 @@ namespace vorocl::command {
 
 namespace {
 
+/// Of numbers without a sign, and of floats: "UInt32".
 template <typename T>
-constexpr const char* vtk_type = nullptr;
-template <>
-constexpr const char* vtk_type<std::uint8_t> = "UInt8";
-template <>
-constexpr const char* vtk_type<std::uint32_t> = "UInt32";
-template <>
-constexpr const char* vtk_type<float> = "Float32";
+std::string vtk_type() {
+  return (std::is_floating_point_v<T> ? "Float" : "UInt") + std::to_string(8 * sizeof(T));
+}
 
 const char* byte_order() {
   const std::uint16_t one = 1;
@@ -66,8 +64,9 @@ void write_vti(const OutputFile& file, const std::string& name, const Raster& ra
   <AppendedData encoding="raw">
     _)",
       byte_order(), fmt::format("0 {} 0 {} 0 {}", width, height, raster.is_volume() ? depth : 0), name,
-      vtk_type<T>, bounds.x0, bounds.y0, raster.is_volume() ? bounds.z0 : 0, (bounds.x1 - bounds.x0) / width,
-      (bounds.y1 - bounds.y0) / height, raster.is_volume() ? (bounds.z1 - bounds.z0) / depth : 1);
+      vtk_type<T>(), bounds.x0, bounds.y0, raster.is_volume() ? bounds.z0 : 0,
+      (bounds.x1 - bounds.x0) / width, (bounds.y1 - bounds.y0) / height,
+      raster.is_volume() ? (bounds.z1 - bounds.z0) / depth : 1);
   image.write(&bytes, sizeof bytes);
   const std::size_t rows = y_up ? static_cast<std::size_t>(size.height()) : 1, count = values.size() / rows;
   for (std::size_t row = rows; row-- > 0;) image.write(values.data() + row * count, count * sizeof(T));

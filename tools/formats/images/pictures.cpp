@@ -10,7 +10,6 @@
 
 #include "formats/files.hpp"
 #include "formats/image_rows.hpp"
-#include "formats/images/png.hpp"
 #include "formats/modules.hpp"
 #include "formats/raster_files.hpp"
 #include "vorocl/error.hpp"

@@ -44,6 +44,11 @@ const std::vector<std::string>& picture_extensions();
 /// Of 8 bits, in one channel or three (BGR). Throws Error if the file cannot be written.
 void write_picture(const OutputFile& file, const cv::Mat& picture);
 
+/// As .png, without OpenCV's module of image files, which takes longer to load than a picture to write. Rows
+/// are stored as differences to the rows above and deflated in strips, each by a thread: quickly rather than
+/// densely, and the same bytes with any number of threads.
+void write_png(const OutputFile& file, const cv::Mat& picture);
+
 /// Which pixels of an image are seeds, row by row, of any image, or .npy: those of which one band is not 0,
 /// or greater than the threshold. None is where a pixel is transparent, or a number is NaN or what the file
 /// says for no data. Memory: that of some rows, and for files that OpenCV decodes the decoded image.

@@ -1,5 +1,3 @@
-#include "formats/images/png.hpp"
-
 #include <zlib.h>
 
 #include <algorithm>
@@ -10,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "formats/images/pictures.hpp"
 #include "formats/workers.hpp"
 
 namespace vorocl::command {
