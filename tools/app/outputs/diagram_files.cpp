@@ -375,6 +375,7 @@ RequestedFile requested(const FileRequest& request) {
 
 std::vector<RequestedFile> requested(const std::vector<FileRequest>& requests) {
   std::vector<RequestedFile> files;
+  files.reserve(requests.size());
   for (const FileRequest& request : requests) files.push_back(requested(request));
   return files;
 }
