@@ -68,7 +68,7 @@ struct ExactFace {
 
   /// So many periods along x, y and z the image of b lies behind the face: seen from the point of a as it was
   /// given, that of b is image times the periods further away than its point says. So the face is normal to
-  /// point b + image * periods - point a.
+  /// point b + image * periods - point a. Of a tilted grid the periods are the edges of its box, which lean.
   std::array<std::int32_t, 3> image = {};
 };
 
@@ -169,7 +169,8 @@ class VOROCL_API ExactCellsResult {
 /// parallel. The same numbers come on every device that has fused multiply-add.
 ///
 /// Of a grid that is tilted (Grid::tilted()) the cells are those of what repeats so, and points are rounded
-/// to 2^-28 of the longer side.
+/// to 2^-28 of the longer side, in a volume to 2^-38 of the longest. A box that is so flat beside its tilts
+/// that more than 65,535 of its images may touch a cell is an Error.
 ///
 /// Weights are rounded to steps squared, or to 2^-53 of how far the greatest lies above them. Of weighted
 /// points at one place the one with the greatest weight has the cell.
@@ -178,7 +179,7 @@ class VOROCL_API ExactCellsResult {
 /// until no seed is nearer to one of its vertices than its own: the security radius of Ray, Sokolov, Lefebvre
 /// and Levy ("Meshless Voronoi on the GPU", 2018), vertex by vertex. Cost: the host sorts the points, in
 /// about 0.1 us each; the device takes 1.5 us per cell and core, in a volume 2.6 us. Memory: 115 bytes per
-/// seed, and 116 more where polygons are asked for; in a volume 380, and 200 more where faces are.
+/// seed, and 116 more where polygons are asked for; in a volume 380, and 220 more where faces are.
 ///
 /// Enqueues and returns, after a wait where only the device has the points. Throws Error if the device has no
 /// doubles (cl_khr_fp64) or too little memory, if the rectangle has no extent along an axis, if the grid has

@@ -185,7 +185,11 @@ class VOROCL_API Grid {
   ///
   /// Exact diagrams, their measures and exact cells know tilted grids. Methods that flood, motions at random,
   /// relaxation and tiles throw Error.
-  Grid tilted(double tilt) const;
+  ///
+  /// The box of a volume, a parallelepiped, has the edges (width, 0, 0), (tilt, height, 0) and (xz, yz,
+  /// depth), as LAMMPS's has. Its tilts stay as they are, and each asks that the two axes in its name are
+  /// periodic. Only exact cells know such boxes; diagrams of them throw Error.
+  Grid tilted(double tilt, double xz = 0, double yz = 0) const;
 
   const Axis& x() const { return x_; }
   const Axis& y() const { return y_; }
@@ -202,18 +206,25 @@ class VOROCL_API Grid {
            static_cast<std::uint64_t>(depth());
   }
 
-  /// The tilt, brought to at most half a period of x; 0 without one.
+  /// The tilt, in a plane brought to at most half a period of x; 0 without one.
   double tilt() const { return tilt_; }
-  bool is_tilted() const { return tilt_ != 0; }
+  double tilt_xz() const { return tilt_xz_; }
+  double tilt_yz() const { return tilt_yz_; }
+  bool is_tilted() const { return tilt_ != 0 || tilt_xz_ != 0 || tilt_yz_ != 0; }
 
   /// The tilt as diagrams have it, in 1/4096 of a pixel: so far along x lies what repeats, height() rows
   /// further down. Rounded once, so that images are sums of what is here and of whole periods.
   std::int64_t shift() const;
 
-  /// A point as it repeats in the period along y, which the axes then take: the point itself but in a tilted
-  /// grid, where it is moved along x by the tilt for each period that it lies beyond.
-  Point in_box(const Point& point) const {
-    return is_tilted() ? Point{point.x - tilt_ * y_.periods_beyond(point.y), point.y, point.z} : point;
+  /// A point as it repeats in the periods along y and z, which the axes then take: the point itself but in a
+  /// tilted grid, where it is moved by the tilts for each period that it lies beyond.
+  Point in_box(Point point) const {
+    if (tilt_xz_ != 0 || tilt_yz_ != 0) {
+      const double periods = z_.periods_beyond(point.z);
+      point = {point.x - tilt_xz_ * periods, point.y - tilt_yz_ * periods, point.z};
+    }
+    if (tilt_ != 0) point.x -= tilt_ * y_.periods_beyond(point.y);
+    return point;
   }
 
   /// The point, in the units of the data, of a position in pixels from the grid's first one.
@@ -222,13 +233,14 @@ class VOROCL_API Grid {
   }
 
   friend bool operator==(const Grid& a, const Grid& b) {
-    return a.x_ == b.x_ && a.y_ == b.y_ && a.z_ == b.z_ && a.tilt_ == b.tilt_;
+    return a.x_ == b.x_ && a.y_ == b.y_ && a.z_ == b.z_ && a.tilt_ == b.tilt_ && a.tilt_xz_ == b.tilt_xz_ &&
+           a.tilt_yz_ == b.tilt_yz_;
   }
   friend bool operator!=(const Grid& a, const Grid& b) { return !(a == b); }
 
  private:
   Axis x_, y_, z_;
-  double tilt_ = 0;
+  double tilt_ = 0, tilt_xz_ = 0, tilt_yz_ = 0;
 };
 
 /// A box of a grid's pixels: what a diagram covers, or a tile of it.
@@ -290,7 +302,7 @@ class VOROCL_API Window {
   /// none of them. Of a tilted grid x and y or none: if the window has all rows of the grid, from the first
   /// one on, and all columns.
   Axes periodic() const {
-    if (grid_.is_tilted()) {
+    if (grid_.is_tilted() && !grid_.is_volume()) {
       const bool shows_all = width_ == grid_.width() && height_ == grid_.height() && y_ == 0;
       return shows_all ? Axes::xy : Axes::none;
     }

@@ -126,7 +126,8 @@ typedef struct vorocl_grid {
   vorocl_axis x, y;
   double
       tilt;  ///< how far the copy of the grid at greater y is shifted along x, in the units of the data; or 0
-  vorocl_axis z;  ///< all zeros, as an initialiser leaves it, are an axis of one pixel
+  vorocl_axis z;            ///< all zeros, as an initialiser leaves it, are an axis of one pixel
+  double tilt_xz, tilt_yz;  ///< of a volume: how far the copy at greater z is shifted along x and y; or 0
 } vorocl_grid;
 
 /// What a diagram covers: `width` x `height` x `depth` pixels from column x, row y and slice z of the grid

@@ -29,10 +29,10 @@
 // Past it a position leaves 32 bits.
 #define TOO_FAR 2147483648.0
 
-// A grid: its axes, and how far along x it repeats a period of y onward.
+// A grid: its axes, and how far along x it repeats a period of y onward, and along x and y a period of z onward.
 typedef struct {
   axis_t x, y, z;
-  double tilt;
+  double4 tilts;
 } grid_t;
 
 static inline flags is_on(axis_t axis, double_v pixel) { return pixel >= 0 && pixel < axis.count; }
@@ -59,7 +59,12 @@ static inline places_t places_of(const grid_t* grid, points_t at, int has_z, int
   if (grid->z.count == 1) z.part = PARTS_OF_PIXEL / 2;  // a plane
   const flags is_on_z = is_finite && is_on(grid->z, z.pixel);
   const int_v along_z = CONVERT_INT_V(IF(is_on_z, z.pixel, (double_v)0)) * PARTS_OF_PIXEL + CONVERT_INT_V(z.part);
-  if (grid->tilt != 0) at.x -= grid->tilt * periods_beyond(grid->y, at.y);
+  if (grid->tilts.s1 != 0 || grid->tilts.s2 != 0) {
+    const double_v periods = periods_beyond(grid->z, at.z);
+    at.x -= grid->tilts.s1 * periods;
+    at.y -= grid->tilts.s2 * periods;
+  }
+  if (grid->tilts.s0 != 0) at.x -= grid->tilts.s0 * periods_beyond(grid->y, at.y);
   const spots_t x = spots_on(grid->x, at.x), y = spots_on(grid->y, at.y);
   const flags is_on_all = is_on_z && is_on(grid->x, x.pixel) && is_on(grid->y, y.pixel);
   const int_v is_inside = counts && CONVERT_FLAGS(is_on_all), is_beyond = counts && !is_inside;
@@ -114,7 +119,7 @@ static inline void store_places(places_t places, int numbers, global int* to, ui
                                                                                                              \
   kernel void place_##number##s(                                                                             \
       global const number* restrict points, int dimensions, global const uchar* restrict marks,              \
-      int absent_by, double2 ends_x, double2 ends_y, double2 ends_z, int4 pixels, int4 kinds, double tilt,   \
+      int absent_by, double2 ends_x, double2 ends_y, double2 ends_z, int4 pixels, int4 kinds, double4 tilts, \
       int outside, uint count, int2 bits, uint empty, global uint* restrict positions, int of_place,         \
       global int* restrict places, global uint* restrict found) {                                            \
     const uint first = (uint)get_global_id(0) * VOROCL_WIDTH;                                                \
@@ -124,7 +129,7 @@ static inline void store_places(places_t places, int numbers, global int* to, ui
       const uint_v own = first + LANES, ids = min(own, (uint_v)(count - 1));                                 \
       const int_v is_seed = AS_INT_V(own < count);                                                           \
       const grid_t grid = {axis_of(ends_x, pixels.x, kinds.x), axis_of(ends_y, pixels.y, kinds.y),           \
-                           axis_of(ends_z, pixels.z, kinds.z), tilt};                                        \
+                           axis_of(ends_z, pixels.z, kinds.z), tilts};                                       \
       points_t at = {number##s_along(points, dimensions, ids, 0),                                            \
                      number##s_along(points, dimensions, ids, 1), 0};                                        \
       if (dimensions > 2) at.z = number##s_along(points, dimensions, ids, 2);                                \

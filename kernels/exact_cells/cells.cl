@@ -20,7 +20,7 @@ kernel __attribute__((vec_type_hint(float8))) void cut_cells(SITE_PARAMETERS, ME
 
 static inline line_t found_line(const tree_t* tree, uint2 edge, int2 at, uint site) {
   const int image = as_int(edge.s1);
-  if (image < FIRST_LINES + 4) return first_line_of(tree, image - FIRST_LINES, at, site);
+  if (edge.s0 == NO_CELL) return first_line(first_sides(tree, convert_long2(at)), image);
   return line_towards(tree, lag_of(tree->lags, site), site_at(tree, edge.s0) - seen_from(tree, at, image), edge.s0,
                       image);
 }

@@ -1,5 +1,5 @@
 // Eight boxes, sites or vertices at once: bits for those that hold, and the order of those that may cut. The
-// tree of sites that planes and volumes share.
+// tree of sites that planes and volumes share: theirs are of a NUMBER, int or double.
 
 #ifndef VOROCL_EXACT_CELLS_LANES
 #define VOROCL_EXACT_CELLS_LANES
@@ -9,6 +9,34 @@
 #define FAN_BITS 3
 #define MOST_LEVELS 10       // of boxes, for 2^30 sites
 #define NO_CELL 0xffffffffu  // behind a side of the box
+
+// Which sites there are: in the kernels' arguments, and as what functions take.
+#define SITE_PARAMETERS                                                                                  \
+  uint count, global const NUMBER *sites, global const NUMBER *boxes, global const uint *levels,         \
+      global const double *lags, global const double *box_lags, int top, NUMBER_4 lower, NUMBER_4 upper, \
+      NUMBER_4 reach, global const NUMBER *shifts, int images
+#define SITE_ARGUMENTS \
+  { count, sites, boxes, levels, lags, box_lags, top, lower, upper, reach, shifts, images }
+
+typedef struct {
+  uint count;                     // of sites
+  global const NUMBER* sites;     // per leaf eight x, eight y and in a volume eight z, in steps
+  global const NUMBER* boxes;     // per group eight lower and eight upper x, and so on
+  global const uint* levels;      // by level: its first group. Those of level 1 are boxes around leaves.
+  global const double* lags;      // per site, and null without weights
+  global const double* box_lags;  // per group eight
+  int top;                        // the last level
+  NUMBER_4 lower, upper;          // sides of the box
+  NUMBER_4 reach;                 // along a periodic axis all cells end nearer to their sites, in half steps; else 0
+  global const NUMBER* shifts;    // of each image of all sites that may cut: itself, the others, the nearest first
+  int images;
+} tree_t;
+
+// A cell begins as the box, but along periodic axes farther than its own images let it reach: how far its lower
+// and upper sides are from the site, in half steps, along an axis.
+#define FIRST_SIDES(tree, at, axis)                                                         \
+  (tree)->reach.axis > 0 ? -(tree)->reach.axis : 2 * ((tree)->lower.axis - (at).axis),      \
+      (tree)->reach.axis > 0 ? (tree)->reach.axis : 2 * ((tree)->upper.axis - (at).axis)
 
 // A bit for each lane that holds, and back.
 #define LANE_BITS ((int8)(1, 2, 4, 8, 16, 32, 64, 128))

@@ -14,12 +14,14 @@
 // (see lanes.cl), and a lag is at most 2^62, beyond which a cell is empty: |c| is at most 2^62.6, and a
 // determinant less than 2^126. (The margins of the search add less than a thousandth.)
 //
-// In a tilted box cells begin with the bisectors of the images at +-u and +-v, two vectors that span the
-// lattice, of which no sum is shorter: 2 |u.v| <= |u|^2 <= |v|^2. Such a vertex is at most |v| away, and |v|
-// is at most sqrt(5) / 2 of the longer side: so R is at most 2^30.2.
+// In a tilted box a cell begins as a square with half of the box's diagonal each way, which is at most 2^28.5 steps:
+// its vertices are at most 2^29 away, and so R is at most 2^30.
 
 #ifndef VOROCL_EXACT_CELLS_POLYGON
 #define VOROCL_EXACT_CELLS_POLYGON
+
+#define NUMBER int
+#define NUMBER_4 int4
 
 #include "exact_cells/lanes.cl"
 #include "exact_cells/wide.cl"
@@ -34,8 +36,7 @@
 // Lists of a polygon with room for so many edges, a multiple of LANES, take so many doubles.
 #define POLYGON_MEMORY(room) (7 * ((room) + LANES))
 
-// A line a x + b y = c, with the site behind it. In a periodic box `image` says which of its images (see
-// search.cl), or which of the lines that the cell began with this is.
+// A line a x + b y = c, with the site behind it. `image` says which of its images, or which side of the box this is.
 typedef struct {
   long c;
   int a, b;
@@ -268,21 +269,5 @@ static inline void cut(polygon_t* polygon, line_t line) {
 }
 
 static inline long square_of(int2 vector) { return (long)vector.s0 * vector.s0 + (long)vector.s1 * vector.s1; }
-
-#define FIRST_LINES INT_MIN  // and the three that follow are the images of the lines that cells begin with
-
-// Line k of the four around a site, counter-clockwise from its lower side: `sides` says how far the left,
-// lower, right and upper sides of the box are. Where a vector of the lattice is given, u = lattice.s01 or v =
-// lattice.s23, it is the bisector with the site's own image there.
-static inline line_t first_line(int k, int4 sides, int4 lattice, uint site) {
-  const bool is_level = (k & 1) == 0, is_lower = k == 0 || k == 3;
-  const int2 vector = is_level ? lattice.s23 : lattice.s01;
-  const long square = square_of(vector);
-  const int2 normal = square > 0 ? vector : is_level ? (int2)(0, 1) : (int2)(1, 0);
-  const int side = is_level ? (is_lower ? sides.s1 : sides.s3) : (is_lower ? sides.s0 : sides.s2);
-  const line_t line = {square > 0 ? square : 2 * (long)side, is_lower ? -normal.s0 : normal.s0,
-                       is_lower ? -normal.s1 : normal.s1, square > 0 ? site : NO_CELL, FIRST_LINES + k};
-  return line;
-}
 
 #endif

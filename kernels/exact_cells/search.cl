@@ -10,49 +10,14 @@
 
 #include "exact_cells/polygon.cl"
 
-// Which sites there are: in the kernels' arguments, and as what functions take.
-#define SITE_PARAMETERS                                                                                               \
-  uint count, global const int *sites, global const int *boxes, global const uint *levels, global const double *lags, \
-      global const double *box_lags, int top, int4 rectangle, int4 periods, int4 lattice
-#define SITE_ARGUMENTS \
-  { count, sites, boxes, levels, lags, box_lags, top, rectangle, periods, lattice }
-
-typedef struct {
-  uint count;                     // of sites
-  global const int* sites;        // per leaf eight x and eight y, in steps
-  global const int* boxes;        // per group eight left sides, eight right ones, eight lower and eight upper ones
-  global const uint* levels;      // by level: its first group. Those of level 1 are boxes around leaves.
-  global const double* lags;      // per site, and null without weights
-  global const double* box_lags;  // per group eight
-  int top;                        // the last level
-  int4 rectangle;                 // left, lower, right and upper sides
-  int4 periods;  // along x and y, 0 along an axis without; and how far the images above are shifted in x
-  int4 lattice;  // two short vectors of that lattice, or zeros
-} tree_t;
-
 static inline int2 site_at(const tree_t* tree, uint site) {
   const size_t at = (size_t)(site >> FAN_BITS) * (2 * FAN) + (site & (FAN - 1));
   return (int2)(tree->sites[at], tree->sites[at + FAN]);
 }
 
-// --- images ---
-
-// In row j of the lattice, which is j periods above, an image is i periods to the right of one in the
-// rectangle. Along x no image can cut that is more than a period away: the one a period nearer is nearer to
-// the whole cell.
-static inline int image_of(int i, int j) { return 4 * j + i + 1; }
-#define ITSELF 1  // image_of(0, 0)
-
 // Where a site is as seen from an image of all sites.
 static inline int2 seen_from(const tree_t* tree, int2 at, int image) {
-  const int i = (image & 3) - 1, j = image >> 2;
-  long x = at.s0;
-  if (tree->periods.s2 != 0) {
-    const long left = tree->rectangle.s0, period = tree->periods.s0;
-    const long shifted = (x - left - (long)j * tree->periods.s2) % period;
-    x = left + (shifted < 0 ? shifted + period : shifted);
-  }
-  return (int2)((int)(x - (long)i * tree->periods.s0), (int)(at.s1 - (long)j * tree->periods.s1));
+  return at - vload2((size_t)image, tree->shifts);
 }
 
 // The bisector of a site with this lag and another one that is so far away.
@@ -62,22 +27,29 @@ static inline line_t line_towards(const tree_t* tree, double lag, int2 way, uint
   return line;
 }
 
-static inline line_t first_line_of(const tree_t* tree, int k, int2 at, uint site) {
-  return first_line(k, (int4)(at - tree->rectangle.s01, tree->rectangle.s23 - at), tree->lattice, site);
+// What a cell begins with: how far its lower, right, upper and left sides are.
+static inline long4 first_sides(const tree_t* tree, long2 at) {
+  const long x[2] = {FIRST_SIDES(tree, at, x)}, y[2] = {FIRST_SIDES(tree, at, y)};
+  return (long4)(y[0], x[1], y[1], x[0]);
+}
+
+static inline line_t first_line(long4 sides, int k) {
+  const long side = k == 0 ? sides.s0 : k == 1 ? sides.s1 : k == 2 ? sides.s2 : sides.s3;
+  const int is_level = (k & 1) == 0, way = k == 0 || k == 3 ? -1 : 1;
+  const line_t line = {way * side, is_level ? 0 : way, is_level ? way : 0, NO_CELL, k};
+  return line;
 }
 
 static inline void begin_polygon(polygon_t* polygon, const tree_t* tree, int2 at, uint site) {
+  const long4 sides = first_sides(tree, convert_long2(at));
+  const double4 ends = convert_double4(sides);
   polygon->lag = lag_of(tree->lags, site);
   polygon->is_full = false;
-  polygon->reach = 0;
   end_edges(polygon, 4);
-  for (int k = 0; k < 4; ++k) set_line(polygon, k, first_line_of(tree, k, at, site));
-  for (int k = 0; k < 4; k += 2) {
-    const int before = (k + 3) & 3;
-    const double4 ends = crossings(line_of(polygon, before), line_of(polygon, k), line_of(polygon, k + 1));
-    const float begin_reach = set_vertex(polygon, before, ends.lo), end_reach = set_vertex(polygon, k, ends.hi);
-    polygon->reach = max(polygon->reach, max(begin_reach, end_reach));
-  }
+  for (int k = 0; k < 4; ++k) set_line(polygon, k, first_line(sides, k));
+  const float4 reaches = {set_vertex(polygon, 0, ends.s10), set_vertex(polygon, 1, ends.s12),
+                          set_vertex(polygon, 2, ends.s32), set_vertex(polygon, 3, ends.s30)};
+  polygon->reach = max(max(reaches.s0, reaches.s1), max(reaches.s2, reaches.s3));
 }
 
 // --- boxes and sites, eight at a time ---
@@ -176,11 +148,6 @@ static inline void cut_by_group(polygon_t* polygon, const tree_t* tree, int top,
   }
 }
 
-static inline void cut_by_image(polygon_t* polygon, const tree_t* tree, int2 at, int i, int j) {
-  const int image = image_of(i, j);
-  cut_by_group(polygon, tree, tree->top, 0, FAR, seen_from(tree, at, image), image);
-}
-
 // --- what the cells of a leaf share ---
 
 #define MOST_NEAR 24  // of uniform points there are some 15
@@ -273,40 +240,21 @@ static inline void cut_by_near(polygon_t* polygon, const tree_t* tree, const nea
     }
     if (next >= end_of(polygon)) return;
     orders[first / FAN] = without(orders[first / FAN], next);
-    cut_by_leaf(polygon, tree, near->leaves[first + (next & (FAN - 1))], at, ITSELF);
+    cut_by_leaf(polygon, tree, near->leaves[first + (next & (FAN - 1))], at, 0);
   }
 }
 
-// --- all sites ---
-
-// How far a coordinate is outside a stretch.
-static inline float outside(long at, int from, int to) { return convert_float(max(max(from - at, at - to), 0L)); }
-
 // Cuts a cell by all sites, and their images across the ends of periods: first by those of its own leaf and
-// of the leaves near it, then, if it reaches farther, by those that are next to its own in the tree. No row
-// of images can cut that is more than a period away, but where the box is tilted.
+// of the leaves near it, then, if it reaches farther, by those that are next to its own in the tree.
 static inline void cut_by_all(polygon_t* polygon, const tree_t* tree, const near_t* near, uint site, int2 at) {
-  cut_by_leaf(polygon, tree, site >> FAN_BITS, at, ITSELF);
+  cut_by_leaf(polygon, tree, site >> FAN_BITS, at, 0);
   cut_by_near(polygon, tree, near, at);
   for (int level = 1; level <= tree->top && 4 * polygon->reach > near->distance; ++level) {
     const uint own = site >> (FAN_BITS * level);
-    cut_by_group(polygon, tree, level, own >> FAN_BITS, own, at, ITSELF);
+    cut_by_group(polygon, tree, level, own >> FAN_BITS, own, at, 0);
   }
-  const int4 rectangle = tree->rectangle, periods = tree->periods;
-  if (periods.s0 > 0) {
-    cut_by_image(polygon, tree, at, -1, 0);
-    cut_by_image(polygon, tree, at, 1, 0);
-  }
-  if (periods.s1 == 0) return;
-  const int most_x = periods.s0 > 0, most_rows = periods.s2 != 0 ? INT_MAX : 1;
-  for (int side = -1; side <= 1; side += 2) {
-    for (int j = 1; j <= most_rows; ++j) {
-      const float away = outside(at.s1 - (long)(side * j) * periods.s1, rectangle.s1, rectangle.s3);
-      const float8 nearest = bisectors_of(tree, away * away, convert_float(polygon->lag));
-      if (nearest.s0 >= 4 * polygon->reach) break;
-      for (int i = -most_x; i <= most_x; ++i) cut_by_image(polygon, tree, at, i, side * j);
-    }
-  }
+  for (int image = 1; image < tree->images; ++image)
+    cut_by_group(polygon, tree, tree->top, 0, FAR, seen_from(tree, at, image), image);
 }
 
 #endif

@@ -29,9 +29,10 @@ auto list(const std::string& request) {
 }
 
 /// A grid of at most as many pixels as a diagram has: here a diagram shows all of it. `bounds` are (x0, y0,
-/// x1, y1), of a volume (x0, y0, z0, x1, y1, z1); `spacing` is along x, y and z.
+/// x1, y1), of a volume (x0, y0, z0, x1, y1, z1); `spacing` is along x, y and z; `tilts`
+/// are xy, xz and yz.
 Grid make_grid(std::int64_t width, std::int64_t height, std::int64_t depth, bool periodic_x, bool periodic_y,
-               bool periodic_z, const std::vector<int>& spacing, double tilt,
+               bool periodic_z, const std::vector<int>& spacing, const std::vector<double>& tilts,
                const std::optional<std::vector<double>>& bounds, bool y_up, bool closed) {
   const std::size_t bounded = bounds ? bounds->size() / 2 : 0;
   const auto axis = [&](std::size_t i, std::int64_t pixels, bool periodic) {
@@ -41,8 +42,8 @@ Grid make_grid(std::int64_t width, std::int64_t height, std::int64_t depth, bool
     return periodic ? made.periodic() : made;
   };
   const Axis y = axis(1, height, periodic_y);
-  const Grid grid =
-      Grid(axis(0, width, periodic_x), y_up ? y.reversed() : y, axis(2, depth, periodic_z)).tilted(tilt);
+  const Grid grid = Grid(axis(0, width, periodic_x), y_up ? y.reversed() : y, axis(2, depth, periodic_z))
+                        .tilted(tilts.at(0), tilts.at(1), tilts.at(2));
   const std::int64_t most_along = grid.is_volume() ? Window::max_side_of_volume : Window::max_side;
   const std::uint64_t most =
       grid.is_volume() ? std::uint64_t{1} << Window::max_bits_of_volume : Window::max_pixels;
@@ -83,7 +84,7 @@ void bind_devices(nb::module_& module) {
 
   nb::class_<Grid>(module, "Grid")
       .def(nb::new_(&make_grid), nb::arg("width"), nb::arg("height"), nb::arg("depth"), nb::arg("periodic_x"),
-           nb::arg("periodic_y"), nb::arg("periodic_z"), nb::arg("spacing"), nb::arg("tilt"),
+           nb::arg("periodic_y"), nb::arg("periodic_z"), nb::arg("spacing"), nb::arg("tilts"),
            nb::arg("bounds").none(), nb::arg("y_up"), nb::arg("closed"));
 
   nb::class_<Report>(module, "Report")

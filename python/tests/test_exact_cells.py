@@ -62,6 +62,32 @@ def test_periodic_cells_are_those_of_freud(points, tilt):
     assert not found.cells["touches_border"].any()
 
 
+@pytest.mark.parametrize("tilt", [0.7, (0.5, -0.6, 0.9), (-1.9, 2, 1), (2, 5.5, -3)])
+def test_cells_of_tilted_volumes_are_those_of_freud(places, tilt):
+    sides = np.subtract(BOX[3:], BOX[:3])
+    xy, xz, yz = tilt if isinstance(tilt, tuple) else (tilt, 0, 0)
+    found = vorocl.exact_cells(places, BOX, periodic=(True,) * 3, tilt=tilt)
+    assert found.cells["volume"].sum() == pytest.approx(8, rel=1e-13) and found.cells["certified"].all()
+    edges = np.array([(sides[0], 0, 0), (xy, sides[1], 0), (xz, yz, sides[2])])
+    # freud wants its tilts brought to a period: the same lattice.
+    short = edges.copy()
+    short[2] -= np.round(short[2, 1] / sides[1]) * short[1]
+    short[1:, 0] -= np.round(short[1:, 0] / sides[0]) * sides[0]
+    box = freud.box.Box(*sides, xy=short[1, 0] / sides[1], xz=short[2, 0] / sides[2], yz=short[2, 1] / sides[2])
+    voronoi = freud.locality.Voronoi().compute((box, box.wrap(places)))
+    np.testing.assert_allclose(found.cells["volume"], voronoi.volumes, rtol=1e-3)  # freud's are made in floats
+    pairs = found.pairs
+    there = {(min(a, b), max(a, b)) for a, b in voronoi.nlist[:].tolist()}
+    assert len({(a, b) for a, b in zip(pairs["a"], pairs["b"])} ^ there) <= 4  # faces of a float's rounding
+    image = np.column_stack([pairs["image_" + axis] for axis in "xyz"])
+    ways = places[pairs["b"]] + image @ edges - places[pairs["a"]]
+    parts = (pairs["area"] / np.linalg.norm(ways, axis=1))[:, None] * ways
+    sums = np.zeros((len(places), 3))
+    np.add.at(sums, pairs["a"], parts)
+    np.add.at(sums, pairs["b"], -parts)
+    np.testing.assert_allclose(sums, 0, atol=1e-10)
+
+
 @pytest.mark.parametrize("tilt", [0, 0.7, -1, 1.99, 4 + 0.7])
 def test_pixels_of_a_tilted_box_have_the_cells_of_freud(points, tilt):
     box = dict(bounds=BOUNDS, periodic=(True, True), tilt=tilt, y_up=True)
@@ -248,7 +274,9 @@ def test_tables_of_volumes(places):
         (lambda: vorocl.exact_cells(places[:, :2], BOUNDS, polyhedra=True), "of volumes"),
         (lambda: vorocl.exact_cells(places, BOUNDS), r"\(N, 2\)"),
         (lambda: vorocl.exact_cells(places, BOX, periodic=(True, True)), "three booleans"),
-        (lambda: vorocl.exact_cells(places, BOX, periodic=(True,) * 3, tilt=1), "volume"),
+        (lambda: vorocl.exact_cells(places, BOX, periodic=(True, True, False), tilt=(0, 1, 0)), "periodic in x and z"),
+        (lambda: vorocl.exact_cells(points, BOUNDS, periodic=(True, True), tilt=(1, 0, 0)), "tilt must be a number"),
+        (lambda: vorocl.cells(places, (4, 5, 6), bounds=BOX, periodic=(True,) * 3, tilt=(1, 0, 0)), "exact cells"),
         (lambda: vorocl.exact_cells(places, 7), "bounds"),
     ]:
         with pytest.raises(vorocl.BadArgument, match=message):

@@ -221,7 +221,7 @@ WRONG_CALLS = [
     (lambda: vorocl.diagram([(1, 2, 3)], (4, 5, 6), bounds=(0, 0, 1, 1)), "bounds must be six numbers"),
     (lambda: vorocl.diagram([(1, 2)], (5, 6), bounds=(0, 0, 0, 1, 1, 1)), "bounds must be four numbers"),
     (lambda: vorocl.diagram([(1, 2, 3)], (4, 5, 6), bounds=(0, 0, 3, 1, 1, 3)), "an extent along all axes"),
-    (lambda: vorocl.diagram([(1, 2, 3)], (4, 5, 6), tilt=1), "which a tilt cannot take"),
+    (lambda: vorocl.diagram([(1, 2, 3)], (4, 5, 6), tilt=1), "periodic in x and y"),
     (lambda: vorocl.diagram([(1, 2, 3)], (4, 5, 6), periodic=(True, False)), "periodic must be three booleans"),
     (lambda: vorocl.diagram([(1, 2)], (5, 6), periodic=(False, False, True)), "periodic must be two booleans"),
     (lambda: vorocl.diagram([(1, 2, 3)], (4, 5, 6), method="jfa", snap=False), 'snap=False is for "exact"'),

@@ -12,7 +12,7 @@ from . import _vorocl
 from ._arguments import Outside, row_of, shown, to_flag, to_outside, to_points
 from ._device import Device, to_device
 from ._errors import BadArgument
-from ._grid import Bounds, Grid, Periodic
+from ._grid import Bounds, Grid, Periodic, Tilt
 from ._parameters import with_parameters
 
 _FOUND = {np.uint32: "neighbours", np.bool_: "touches_border certified"}
@@ -222,7 +222,7 @@ def exact_cells(
     bounds: Bounds,
     *,
     periodic: Periodic = (False, False),
-    tilt: float = 0.0,
+    tilt: Tilt = 0.0,
     outside: Outside = "count",
     weights: Optional[ArrayLike] = None,
     polyhedra: bool = False,
@@ -246,7 +246,8 @@ def exact_cells(
         Which axes, x and y, are periodic: the rectangle is the period. Cells are whole across its ends, where they reach
         beyond it. Of a volume three: x, y and z.
     <tilt>
-        Points are rounded to 2**-28 of the longer side then. Volumes have no tilt.
+        Points are rounded to 2**-28 of the longer side then, in a volume to 2**-38 of the longest. Images of faces count
+        the edges of the box: (width, 0, 0), (xy, height, 0) and (xz, yz, depth).
     outside : {"count", "absent", "refuse"}, optional
         What becomes of points outside the bounds. "count": they have what of the rectangle is nearest to them; in a volume
         they are refused. "absent": they have no cell. "refuse": they are an error.

@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any, Callable, Optional, Sequence, Tuple, Type, TypedDict, Union
 
 from . import _vorocl
-from ._arguments import Outside, shown, to_bool, to_flag, to_number, to_outside
+from ._arguments import Outside, shown, to_bool, to_flag, to_outside
 from ._errors import BadArgument
 from ._parameters import with_parameters
 
@@ -20,6 +20,7 @@ else:  # at run time the type of the keywords alone
 Shape = Union[Tuple[int, int], Tuple[int, int, int]]
 Bounds = Union[Tuple[float, float, float, float], Tuple[float, float, float, float, float, float]]
 Periodic = Sequence[bool]
+Tilt = Union[float, Tuple[float, float, float]]
 
 
 @with_parameters
@@ -55,7 +56,7 @@ class Grid:
     shape: Shape
     bounds: Optional[Bounds] = None
     periodic: Periodic = (False, False)
-    tilt: float = 0.0
+    tilt: Tilt = 0.0
     y_up: bool = False
     spacing: Optional[Sequence[int]] = None
 
@@ -65,7 +66,7 @@ class Grid:
             "shape": shape,
             "bounds": _to_bounds(self.bounds, len(shape)),
             "periodic": to_periodic(self.periodic, len(shape)),
-            "tilt": to_number(self.tilt, "tilt"),
+            "tilt": _to_tilt(self.tilt, len(shape)),
             "y_up": to_flag(self.y_up, "y_up"),
             "spacing": _to_spacing(self.spacing, len(shape)),
         }
@@ -88,7 +89,7 @@ class Grid:
         """As how many units distances count a pixel, along each axis."""
         return tuple(self.spacing or (1,) * len(self.shape))
 
-    def _showing(self, bounds: Optional[Bounds], tilt: Optional[float]) -> Grid:
+    def _showing(self, bounds: Optional[Bounds], tilt: Optional[Tilt]) -> Grid:
         """With other bounds or another tilt, where there are any."""
         return replace(
             self, bounds=self.bounds if bounds is None else bounds, tilt=self.tilt if tilt is None else tilt
@@ -100,7 +101,7 @@ class Frame(TypedDict, total=False):
 
     bounds: Optional[Bounds]
     periodic: Periodic
-    tilt: float
+    tilt: Tilt
     y_up: bool
     spacing: Optional[Sequence[int]]
 
@@ -122,7 +123,8 @@ def _made(grid: Grid, closed: bool) -> _vorocl.Grid:
     depth, height, width = [1, *grid.shape][-3:]
     x, y, z = [*grid.periodic, False][:3]
     units = [*grid._units, 1][:3]
-    return _vorocl.Grid(width, height, depth, x, y, z, units, grid.tilt, grid.bounds, grid.y_up, closed)
+    tilts = grid.tilt if isinstance(grid.tilt, tuple) else (grid.tilt, 0.0, 0.0)
+    return _vorocl.Grid(width, height, depth, x, y, z, units, tilts, grid.bounds, grid.y_up, closed)
 
 
 def _converted(values: Any, convert: Callable[[Any], Any]) -> Tuple[Any, ...]:
@@ -154,6 +156,17 @@ def to_periodic(periodic: Periodic, dimensions: int) -> Tuple[bool, ...]:
         wanted = {2: "two booleans (x, y)", 3: "three booleans (x, y, z) for a volume"}
         raise BadArgument(f"periodic must be {wanted[dimensions]}; this is {shown(periodic)}")
     return axes
+
+
+def _to_tilt(tilt: Tilt, dimensions: int) -> Tilt:
+    tilts = _converted(tilt, float) if dimensions == 3 else ()
+    if len(tilts) == 3:
+        return (tilts[0], tilts[1], tilts[2]) if any(tilts[1:]) else tilts[0]
+    try:
+        return float(tilt)  # type: ignore[arg-type]
+    except (TypeError, ValueError, OverflowError):
+        wanted = {2: "a number", 3: "a number, or three (xy, xz, yz)"}
+        raise BadArgument(f"tilt must be {wanted[dimensions]}; this is {shown(tilt)}") from None
 
 
 def _to_spacing(spacing: Optional[Sequence[int]], dimensions: int) -> Optional[Tuple[int, ...]]:

@@ -45,10 +45,11 @@ periodic : (bool, bool), optional
     Which axes, x and y, are periodic: distances go the shorter way round, and points outside wrap. Of a volume three:
     x, y and z.""",
     "tilt": """\
-tilt : float, optional
+tilt : float or (float, float, float), optional
     Of a box that is tilted in its plane, as LAMMPS's ``xy``: how far the copy of the grid at greater y is shifted along
     x, in the units of the points. The grid has the points of the parallelogram with the edges (width, 0) and
-    (tilt, height). Both axes must be periodic then. Methods that flood know no tilt.""",
+    (tilt, height). Both axes must be periodic then. Methods that flood know no tilt. Of a volume three: LAMMPS's ``xy``,
+    ``xz`` and ``yz``, which `exact_cells` alone takes.""",
     "outside": """\
 outside : {"count", "absent", "refuse"}, optional
     What becomes of points outside the grid or the bounds. "count": the grid is a window of a larger plane, and they are

@@ -39,7 +39,7 @@ bool is_zero(const vorocl_axis& axis) {
 
 Grid to_grid(const vorocl_grid& grid) {
   const Axis z = is_zero(grid.z) ? Axis(1) : to_axis(grid.z);
-  return Grid(to_axis(grid.x), to_axis(grid.y), z).tilted(grid.tilt);
+  return Grid(to_axis(grid.x), to_axis(grid.y), z).tilted(grid.tilt, grid.tilt_xz, grid.tilt_yz);
 }
 
 Window to_window(const vorocl_window& window) {
@@ -49,7 +49,9 @@ Window to_window(const vorocl_window& window) {
                 has_all_slices ? grid.depth() : window.depth);
 }
 
-vorocl_grid to_c(const Grid& grid) { return {to_c(grid.x()), to_c(grid.y()), grid.tilt(), to_c(grid.z())}; }
+vorocl_grid to_c(const Grid& grid) {
+  return {to_c(grid.x()), to_c(grid.y()), grid.tilt(), to_c(grid.z()), grid.tilt_xz(), grid.tilt_yz()};
+}
 
 vorocl_window to_c(const Window& window) {
   return {to_c(window.grid()), window.x(), window.y(),    window.width(),
@@ -71,7 +73,12 @@ vorocl_grid vorocl_grid_of_voxels(int64_t width, int64_t height, int64_t depth, 
     const int flag = is_known ? (periodic & its_own) / its_own : -1;
     return {pixels, 0, static_cast<double>(pixels), flag, 0, 0, 1};
   };
-  return {axis(width, VOROCL_PERIODIC_X), axis(height, VOROCL_PERIODIC_Y), 0, axis(depth, VOROCL_PERIODIC_Z)};
+  return {axis(width, VOROCL_PERIODIC_X),
+          axis(height, VOROCL_PERIODIC_Y),
+          0,
+          axis(depth, VOROCL_PERIODIC_Z),
+          0,
+          0};
 }
 
 vorocl_window vorocl_window_of_grid(vorocl_grid grid) {

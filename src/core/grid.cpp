@@ -191,17 +191,35 @@ Grid::Grid(std::int64_t width, std::int64_t height, std::int64_t depth, Axes per
     : Grid(axis_of_pixels(width, has_x(periodic)), axis_of_pixels(height, has_y(periodic)),
            axis_of_pixels(depth, has_z(periodic))) {}
 
-Grid Grid::tilted(double tilt) const {
+namespace {
+/// `from` leans along `axis` by a tilt.
+void check_tilt(double tilt, const Axis& from, const Axis& axis, const char* names) {
+  constexpr double most_periods = 1024;
   if (!std::isfinite(tilt)) throw Error("the tilt must be a finite number");
-  if (tilt != 0) refuse_volume(*this, "a tilt");
-  if (tilt != 0 && !(x_.is_periodic() && y_.is_periodic())) {
-    throw Error("a tilted box must be periodic in x and y");
+  if (tilt == 0) return;
+  if (!from.is_periodic() || !axis.is_periodic()) {
+    throw Error("a tilted box must be periodic in " + std::string(names));
   }
+  if (std::abs(tilt) > most_periods * (axis.to() - axis.from())) {
+    throw Error("a tilt in " + std::string(names) + " is longer than 1024 periods: take the whole ones off");
+  }
+}
+}  // namespace
+
+Grid Grid::tilted(double tilt, double xz, double yz) const {
   Grid grid = *this;
-  grid.tilt_ = 0;
-  if (tilt == 0) return grid;
-  const double period = x_.to() - x_.from(), reduced = std::remainder(tilt, period);
-  grid.tilt_ = 2 * reduced == -period ? -reduced : reduced;
+  grid.tilt_ = tilt;
+  grid.tilt_xz_ = xz;
+  grid.tilt_yz_ = yz;
+  if (grid.is_tilted() && !is_volume()) {
+    refuse_volume(*this, "a tilt");
+    if (xz != 0 || yz != 0) throw Error("a plane is tilted by xy alone; xz and yz are tilts of volumes");
+    const double period = x_.to() - x_.from(), reduced = std::remainder(tilt, period);
+    grid.tilt_ = 2 * reduced == -period ? -reduced : reduced;
+  }
+  check_tilt(grid.tilt_, y_, x_, "x and y");
+  check_tilt(xz, z_, x_, "x and z");
+  check_tilt(yz, z_, y_, "y and z");
   return grid;
 }
 
@@ -219,7 +237,7 @@ Window::Window(const Grid& grid, std::int64_t x, std::int64_t y, std::int64_t z,
                std::int64_t height, std::int64_t depth)
     : grid_(grid),
       x_(checked_begin(grid.x(), "x", x, width)),
-      y_(checked_begin(grid.y(), "y", y, height, grid.is_tilted())),
+      y_(checked_begin(grid.y(), "y", y, height, grid.is_tilted() && !grid.is_volume())),
       z_(checked_begin(grid.z(), "z", z, depth)),
       width_(width),
       height_(height),

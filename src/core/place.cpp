@@ -44,7 +44,8 @@ void place_on_grid(const Device& device, KernelSet& kernels, const Grid& grid, O
       kernels.get(device, "core/place.cl", points.are_doubles ? "place_doubles" : "place_floats", any);
   kernel.over_items(points.count / kernel.vector_width() + 1, *points.points, cl_int{points.dimensions},
                     has_marks ? absence.marks : positions, absent_by, ends_of(grid.x()), ends_of(grid.y()),
-                    ends_of(grid.z()), of_axes(pixels_of), of_axes(kind_of), grid.tilt(),
+                    ends_of(grid.z()), of_axes(pixels_of), of_axes(kind_of),
+                    cl_double4{{grid.tilt(), grid.tilt_xz(), grid.tilt_yz(), 0}},
                     static_cast<cl_int>(outside), static_cast<cl_uint>(points.count), packed.bits,
                     packed.empty, positions, has_places ? numbers_of_place(grid) : cl_int{0},
                     has_places ? places : positions, found);

@@ -54,7 +54,7 @@ std::uint64_t next_number() {
 /// The pixels of a diagram of all of a grid, as far as kernels go round its periods.
 PixelGrid whole_of(const Grid& grid) {
   const PixelGrid pixels{Window(grid)};
-  return grid.is_tilted() ? pixels.without_periods() : pixels;
+  return grid.is_tilted() && !grid.is_volume() ? pixels.without_periods() : pixels;
 }
 
 /// Whether a kernel places points on a grid, as far as all of them lie in it: one that a diagram shows whole,
@@ -74,7 +74,7 @@ std::vector<std::uint32_t> voxels_of(const SeedsFrame& frame) {
   std::vector<std::uint32_t> voxels;
   voxels.reserve(frame.size + 1);  // one more is added when they are uploaded
   for (std::size_t id = 0; id < frame.size; ++id) {
-    const Point at = frame.given.point(grid, id);
+    const Point at = grid.in_box(frame.given.point(grid, id));
     voxels.push_back(std::isnan(at.x)
                          ? absent_voxel
                          : bits.pack(pixel(grid.x(), at.x), pixel(grid.y(), at.y), pixel(grid.z(), at.z)));
@@ -91,7 +91,7 @@ std::vector<cl_int4> places_of(const SeedsFrame& frame) {
   const cl_int4 absent = {{absent_coordinate, 0, 0, 0}};
   std::vector<cl_int4> places(frame.size + 1, absent);
   for (std::size_t id = 0; id < frame.size; ++id) {
-    const Point at = frame.given.point(grid, id);
+    const Point at = grid.in_box(frame.given.point(grid, id));
     if (std::isnan(at.x)) continue;
     const cl_int z = grid.is_volume() ? along(grid.z(), at.z) : fractions_of_pixel / 2;
     places[id] = {{along(grid.x(), at.x), along(grid.y(), at.y), z, 0}};

@@ -73,9 +73,10 @@ struct ExactCellsState {
   cl_double4 origin = {};
   KernelSet kernels;
 
-  cl::Buffer places, boxes, levels, ids, lags, box_lags;
-  Upload<cl_int> upload_of_places, upload_of_boxes;
-  Upload<cl_double> upload_of_volume_places, upload_of_volume_boxes, upload_of_lags, upload_of_box_lags;
+  cl::Buffer places, boxes, shifts, levels, ids, lags, box_lags;
+  std::array<Upload<cl_int>, 3> uploads_of_plane;
+  std::array<Upload<cl_double>, 3> uploads_of_volume;
+  Upload<cl_double> upload_of_lags, upload_of_box_lags;
   Upload<cl_uint> upload_of_levels, upload_of_ids;
 
   cl::Buffer areas, centroids, perimeters, neighbours, flags;  // by cell
@@ -109,13 +110,15 @@ struct ExactCellsState {
     return kernels.get(*device, file, name, PixelGrid(1, 1));
   }
 
-  void upload_tree(PlaneSites& of) {
-    upload_of_places.start(*device, places, std::move(of.places));
-    upload_of_boxes.start(*device, boxes, std::move(of.boxes));
-  }
-  void upload_tree(VolumeSites& of) {
-    upload_of_volume_places.start(*device, places, std::move(of.places));
-    upload_of_volume_boxes.start(*device, boxes, std::move(of.boxes));
+  auto& uploads(const PlaneSites&) { return uploads_of_plane; }
+  auto& uploads(const VolumeSites&) { return uploads_of_volume; }
+
+  template <typename T>
+  void send(cl::Buffer& buffer, Upload<T>& upload, std::vector<T>&& values) {
+    if (values.empty()) buffer = cl::Buffer();
+    if (values.empty()) return;
+    make_room(buffer, *device, values.size() * sizeof(T));
+    upload.start(*device, buffer, std::move(values));
   }
 
   /// Launches a kernel that takes the sites (SITE_PARAMETERS of search.cl) first.
@@ -123,10 +126,9 @@ struct ExactCellsState {
   cl::Event over_sites(const char* file, const char* name, std::size_t items, const More&... more) {
     return std::visit(
         [&](const auto& of) {
-          const auto box = of.box();
           return kernel(file, name)
-              .over_items(items, site_count, places, boxes, levels, lags, box_lags, top_level, box[0], box[1],
-                          box[2], more...);
+              .over_items(items, site_count, places, boxes, levels, lags, box_lags, top_level, of.lower,
+                          of.upper, of.reach, shifts, static_cast<cl_int>(of.images.size()), more...);
         },
         sites);
   }
@@ -164,22 +166,14 @@ std::pair<cl::Event, cl::Event> ExactCellsState::start(const Device& on, SitesOf
   top_level = of.top_level();
   step = of.step;
   origin = {{of.origin.x, of.origin.y, of.origin.z, 0}};
-  room(places, of.places.size(), sizeof(of.places[0]));
-  room(boxes, of.boxes.size(), sizeof(of.boxes[0]));
-  room(levels, of.levels.size(), sizeof(cl_uint));
-  room(ids, of.ids.size(), sizeof(cl_uint));
-  upload_tree(of);
-  const auto upload_lags = [&](cl::Buffer& buffer, Upload<cl_double>& upload,
-                               std::vector<cl_double>&& values) {
-    if (values.empty()) buffer = cl::Buffer();
-    if (values.empty()) return;
-    room(buffer, values.size(), sizeof(cl_double));
-    upload.start(on, buffer, std::move(values));
-  };
-  upload_lags(lags, upload_of_lags, std::move(of.lags));
-  upload_lags(box_lags, upload_of_box_lags, std::move(of.box_lags));
-  upload_of_levels.start(on, levels, std::move(of.levels));
-  upload_of_ids.start(on, ids, std::move(of.ids));
+  auto& uploads_of_kind = uploads(of);
+  send(places, uploads_of_kind[0], std::move(of.places));
+  send(boxes, uploads_of_kind[1], std::move(of.boxes));
+  send(shifts, uploads_of_kind[2], std::move(of.shifts));
+  send(lags, upload_of_lags, std::move(of.lags));
+  send(box_lags, upload_of_box_lags, std::move(of.box_lags));
+  send(levels, upload_of_levels, std::move(of.levels));
+  send(ids, upload_of_ids, std::move(of.ids));
   sites = std::move(of);
   room_for_edges = kind().usual_edges(site_count);
   for (cl::Buffer* const numbers : {&areas, &perimeters}) room(*numbers, cells, sizeof(cl_double));
@@ -260,7 +254,7 @@ void ExactCellsState::list() {
   make_room(edge_neighbours, *device, sum * sizeof(cl_uint));
   if (is_volume()) {
     make_room(lengths, *device, sum * sizeof(cl_double));
-    make_room(images, *device, sum);
+    make_room(images, *device, sum * sizeof(cl_ushort));
     vertices = cl::Buffer();
   } else {
     make_room(vertices, *device, sum * sizeof(cl_double2));
@@ -456,19 +450,23 @@ std::vector<ExactFace> ExactCellsResult::read_faces() const {
   const auto offsets = download<cl_uint>(device, state_->offsets, size() + 1);
   const auto neighbours = download<cl_uint>(device, state_->edge_neighbours, count);
   const auto areas = download<cl_double>(device, state_->lengths, count);
-  const auto images = download<cl_uchar>(device, state_->images, count);
-  const std::vector<PeriodCounts>& beyond = std::get<VolumeSites>(state_->sites).beyond;
+  const auto images = download<cl_ushort>(device, state_->images, count);
+  const VolumeSites& sites = std::get<VolumeSites>(state_->sites);
+  const std::vector<PeriodCounts>& beyond = sites.beyond;
   std::vector<ExactFace> faces;
   faces.reserve(count / 2);
   for (std::uint32_t a = 0; a < size(); ++a) {
     const std::size_t first = faces.size();
     for (std::size_t i = offsets[a]; i < offsets[a + 1]; ++i) {
       const std::uint32_t b = neighbours[i];
-      constexpr int itself = 13;  // ITSELF of search.cl, which says how images are counted
-      if (b == no_label || b < a || (b == a && images[i] < itself)) continue;
-      ExactFace face = {a, b, areas[i], {images[i] % 3 - 1, images[i] / 3 % 3 - 1, images[i] / 9 - 1}};
-      for (std::size_t axis = 0; axis < 3 && a < beyond.size() && b < beyond.size(); ++axis)
-        face.image[axis] += static_cast<std::int32_t>(beyond[a][axis] - beyond[b][axis]);
+      if (b == no_label || b < a) continue;
+      PeriodCounts image = sites.images[images[i]];
+      const PeriodCounts downwards = {image[2], image[1], image[0]};
+      if (b == a && downwards < PeriodCounts{}) continue;
+      for (std::size_t axis = 0; axis < 3 && !beyond.empty(); ++axis)
+        image[axis] += beyond[a][axis] - beyond[b][axis];
+      const auto number = [](std::int64_t periods) { return static_cast<std::int32_t>(periods); };
+      const ExactFace face = {a, b, areas[i], {number(image[0]), number(image[1]), number(image[2])}};
       faces.push_back(face);
     }
     std::sort(faces.begin() + static_cast<std::ptrdiff_t>(first), faces.end(),
@@ -544,8 +542,8 @@ Report exact_cells(const Seeds& seeds, ExactCellsResult& result, const ExactCell
   check_weights(options.weights, points);
   state.cells = points.size();
   const auto [first, last] = grid.is_volume()
-                                 ? state.start(device, sites_of_volume(grid, points, options.weights))
-                                 : state.start(device, sites_of_plane(grid, points, options.weights));
+                                 ? state.start(device, sites_of<VolumeSites>(grid, points, options.weights))
+                                 : state.start(device, sites_of<PlaneSites>(grid, points, options.weights));
   check(clFlush(device.queue()()), "starting a measurement");
   state.is_made = true;
   return Internal::report(0, first, last, stopwatch.milliseconds(), first_launches.take());

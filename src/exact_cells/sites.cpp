@@ -7,7 +7,6 @@
 #include <sstream>
 #include <tuple>
 
-#include "core/window_places.hpp"
 #include "exact_cells/hilbert_order.hpp"
 #include "vorocl/error.hpp"
 // Last: it defines macros.
@@ -17,11 +16,26 @@ namespace vorocl {
 
 namespace {
 
-// The longest side has at most so many steps (kernels/exact_cells/polygon.cl and volumes/sides.cl say why).
-constexpr int step_bits = 30, step_bits_if_tilted = 29, step_bits_of_volume = 40;
+/// What planes and volumes have of their own. The longest side has at most 2^bits steps, half as many in a
+/// tilted box (kernels/exact_cells/polygon.cl and volumes/sides.cl say why). No two places are so far from
+/// each other, squared, as the greatest lag: a cell with it is empty. Sites and boxes that are not there are
+/// `far` away.
+template <std::size_t dimensions>
+struct SiteKind;
+template <>
+struct SiteKind<2> {
+  static constexpr int bits = 30, bits_of_curve = 30;
+  static constexpr double most_lag = 0x1p62;
+  static constexpr cl_int far = 0;
+  static std::uint64_t order(const std::array<std::uint32_t, 2>& at) { return hilbert_order(at[0], at[1]); }
+};
+template <>
+struct SiteKind<3> {
+  static constexpr int bits = 40, bits_of_curve = hilbert_bits;
+  static constexpr double most_lag = 0x1p83, far = 1e17;
+  static std::uint64_t order(const std::array<std::uint32_t, 3>& at) { return hilbert_order(at); }
+};
 
-// No two places are so far from each other, squared: a cell with such a lag is empty.
-constexpr double most_lag = 0x1p62, most_lag_of_volume = 0x1p83;
 constexpr std::size_t fan = FAN;
 
 /// A stretch of an axis in the units of the data.
@@ -49,43 +63,143 @@ int exponent_of_step(double longest_side, int bits) {
   return std::max(exponent - (is_power ? 1 : 0) - bits, std::numeric_limits<double>::min_exponent);
 }
 
-/// What repeats by periods and a tilt: see Sites.
-cl_int4 lattice_of(const cl_int4& periods) {
-  const cl_int4 flat = {{periods.s[0], 0, 0, periods.s[1]}};
-  if (periods.s[2] == 0) return flat;
-  auto [u, v] = reduced({periods.s[0], 0}, {periods.s[2], periods.s[1]});
-  if (u.x * v.y < u.y * v.x) v = {-v.x, -v.y};
-  return {{static_cast<cl_int>(u.x), static_cast<cl_int>(u.y), static_cast<cl_int>(v.x),
-           static_cast<cl_int>(v.y)}};
+// --- what repeats ---
+
+using LatticeWay = PeriodCounts;          // in steps
+using Edges = std::array<LatticeWay, 3>;  // of the box, by axis: along it and the axes before it, or 0 if it
+                                          // is not periodic
+
+double dot(const LatticeWay& p, const LatticeWay& q) {
+  double sum = 0;
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    sum += static_cast<double>(p[axis]) * static_cast<double>(q[axis]);
+  return sum;
+}
+
+LatticeWay sum_of(const Edges& edges, const LatticeWay& counts) {
+  LatticeWay sum = {};
+  for (std::size_t edge = 0; edge < 3; ++edge) {
+    for (std::size_t axis = 0; axis < 3; ++axis) sum[axis] += counts[edge] * edges[edge][axis];
+  }
+  return sum;
+}
+
+/// Between which vectors of a lattice, and those opposite, the places lie that are nearest to one of its
+/// points: sums of an obtuse superbase, by Selling's reduction (Conway and Sloane, "Low-dimensional lattices
+/// VI", 1992).
+std::vector<LatticeWay> vectors_around(const Edges& edges) {
+  constexpr double rounding = 1e-12;
+  std::array<LatticeWay, 4> base = {edges[0], edges[1], edges[2], sum_of(edges, {-1, -1, -1})};
+  for (bool is_changed = true; is_changed;) {
+    is_changed = false;
+    for (std::size_t i = 1; i < 4; ++i) {
+      for (std::size_t j = 0; j < i; ++j) {
+        const LatticeWay way = base[i];
+        if (dot(way, base[j]) <= rounding * dot(way, way)) continue;
+        for (std::size_t k = 0; k < 4; ++k) {
+          for (std::size_t axis = 0; axis < 3 && k != j; ++axis)
+            base[k][axis] = k == i ? -way[axis] : base[k][axis] + way[axis];
+        }
+        is_changed = true;
+      }
+    }
+  }
+  std::vector<LatticeWay> vectors;
+  for (int of = 1; of < 8; ++of)
+    vectors.push_back(sum_of({base[0], base[1], base[2]}, {of & 1, of >> 1 & 1, of >> 2}));
+  return vectors;
+}
+
+/// How far, along each axis, a site that cuts a cell may lie from the cell's own: twice as far as the places
+/// that are nearer to it than to its own images. No place is farther from all images than half of the box's
+/// diagonal.
+LatticeWay most_ways(const Edges& edges) {
+  LatticeWay most = {};
+  double square = 0;
+  for (std::size_t axis = 0; axis < 3; ++axis) square += std::pow(static_cast<double>(edges[axis][axis]), 2);
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const std::int64_t side = edges[axis][axis];
+    const bool is_straight =
+        dot(edges[axis], edges[axis]) == static_cast<double>(side) * static_cast<double>(side);
+    most[axis] = is_straight ? side : std::llround(std::ceil(std::sqrt(square)));
+  }
+  return most;
+}
+
+/// The images of all sites that may cut cells, itself first and then the nearest. A site that is d away cuts
+/// none if a vector r of the lattice has |d.r| > |r|^2: its image that is r nearer is nearer to all of the
+/// cell.
+std::vector<PeriodCounts> images_of(const Edges& edges) {
+  constexpr std::size_t most_images = 0xffff;
+  constexpr double most_to_try = 0x1p22, rounding = 1e-14;
+  const std::vector<LatticeWay> around = vectors_around(edges);
+  const LatticeWay most = most_ways(edges);
+  double to_try = 1;
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    if (most[axis] > 0) to_try *= 2 * static_cast<double>(most[axis] / edges[axis][axis]) + 3;
+  std::vector<std::pair<double, PeriodCounts>> images;
+  PeriodCounts counts = {};
+  const auto add = [&] {
+    const LatticeWay way = sum_of(edges, counts);
+    for (const LatticeWay& vector : around) {
+      double nearest = std::abs(dot(way, vector));  // of sites in the box, of ways times the vector
+      for (std::size_t axis = 0; axis < 3; ++axis)
+        nearest -= static_cast<double>(std::max(edges[axis][axis] - 1, std::int64_t{0})) *
+                   static_cast<double>(std::abs(vector[axis]));
+      if (nearest > dot(vector, vector) * (1 + rounding)) return;
+    }
+    images.emplace_back(dot(way, way), counts);
+  };
+  const auto each = [&](std::size_t axis, auto next) {
+    const std::int64_t side = edges[axis][axis];
+    if (side == 0) return next();
+    const double from = static_cast<double>(sum_of(edges, counts)[axis]),
+                 range = static_cast<double>(most[axis] + side);
+    const auto per_side = 1 / static_cast<double>(side);
+    const std::int64_t last = std::llround(std::floor((range - from) * per_side));
+    for (counts[axis] = std::llround(std::ceil((-range - from) * per_side)); counts[axis] <= last;
+         ++counts[axis])
+      next();
+    counts[axis] = 0;
+  };
+  if (to_try <= most_to_try) each(2, [&] { each(1, [&] { each(0, add); }); });
+  if (images.empty() || images.size() > most_images) {
+    throw Error("the box is tilted and too flat for that: exact cells know at most " +
+                std::to_string(most_images) + " of its images, and need more");
+  }
+  std::sort(images.begin(), images.end());
+  std::vector<PeriodCounts> sorted;
+  for (const auto& image : images) sorted.push_back(image.second);
+  return sorted;
 }
 
 /// The steps of one axis.
 class Steps {
  public:
   Steps(const Axis& axis, double origin, int exponent)
-      : axis_(axis), origin_(origin), exponent_(exponent), per_unit_(std::ldexp(1.0, -exponent)) {}
+      : axis_(axis),
+        origin_(origin),
+        per_unit_(std::ldexp(1.0, -exponent)),
+        from_(at(axis.from())),
+        to_(at(axis.to())) {}
 
-  std::int64_t from() const { return at(axis_.from()); }
-  std::int64_t to() const { return at(axis_.to()); }
-  std::int64_t period() const { return axis_.is_periodic() ? to() - from() : 0; }
+  std::int64_t from() const { return from_; }
+  std::int64_t to() const { return to_; }
   std::int64_t length(double extent) const { return std::llrint(extent * per_unit_); }
 
-  /// The step that a coordinate is rounded to.
-  std::int64_t operator()(double coordinate) const {
-    if (!axis_.is_periodic()) return at(coordinate);
-    const double period = axis_.to() - axis_.from();
-    double offset = std::fmod(coordinate - axis_.from(), period);
-    if (offset < 0) offset += period;
-    const std::int64_t step = at(axis_.from() + offset);
-    return step >= to() ? from() : step;
-  }
-
-  /// How many periods a coordinate lies beyond the step that it is rounded to.
-  std::int64_t periods_beyond(double coordinate) const {
-    if (!axis_.is_periodic()) return 0;
-    const double place =
-        axis_.from() + std::ldexp(static_cast<double>((*this)(coordinate)-from()), exponent_);
-    return std::llrint((coordinate - place) / (axis_.to() - axis_.from()));
+  /// The step that a coordinate is rounded to, and how many periods it lies beyond that.
+  std::pair<std::int64_t, std::int64_t> operator()(double coordinate) const {
+    if (!axis_.is_periodic()) return {at(coordinate), 0};
+    std::int64_t periods = 0;
+    if (!(coordinate >= axis_.from() && coordinate < axis_.to())) {
+      const double period = axis_.to() - axis_.from(), way = coordinate - axis_.from();
+      double offset = std::fmod(way, period);
+      if (offset < 0) offset += period;
+      periods = std::llrint((way - offset) / period);
+      coordinate = axis_.from() + offset;
+    }
+    const std::int64_t step = at(coordinate);
+    return step < to_ ? std::pair(step, periods) : std::pair(from_, periods + 1);
   }
 
  private:
@@ -93,8 +207,8 @@ class Steps {
 
   Axis axis_;
   double origin_;
-  int exponent_;
   double per_unit_;  // a power of two, so that products are exact
+  std::int64_t from_, to_;
 };
 
 /// A point's place in Hilbert's order.
@@ -149,12 +263,14 @@ std::vector<double> lags_of(const std::vector<double>& weights,
 }
 
 /// Makes sites of places, by id, of which the one with the least lag, or else the first one, at each place
-/// counts, and boxes around each eight sites, around each eight boxes, and so on. `far` is where sites and
-/// boxes are that are not there.
-template <std::size_t dimensions, typename Number>
-void make_tree(SiteTree<Number>& tree, std::vector<OnCurve>&& order,
-               const std::vector<std::array<Number, dimensions>>& places, const std::vector<double>& lags,
-               Number far) {
+/// counts, and boxes around each eight sites, around each eight boxes, and so on.
+template <typename SitesOfKind>
+void make_tree(SitesOfKind& tree, std::vector<OnCurve>&& order,
+               const std::vector<std::array<typename SitesOfKind::Number, SitesOfKind::dimensions>>& places,
+               const std::vector<double>& lags) {
+  using Number = typename SitesOfKind::Number;
+  constexpr std::size_t dimensions = SitesOfKind::dimensions;
+  constexpr Number far = SiteKind<dimensions>::far;
   const auto lag_of = [&lags](cl_uint id) { return lags.empty() ? 0.0 : lags[id]; };
   sort(order, [&](const OnCurve& p, const OnCurve& q) {
     if (p.order != q.order) return p.order < q.order;
@@ -224,81 +340,73 @@ void make_tree(SiteTree<Number>& tree, std::vector<OnCurve>&& order,
 
 }  // namespace
 
-PlaneSites sites_of_plane(const Grid& grid, const std::vector<std::optional<Point>>& points,
-                          const std::vector<double>& weights) {
-  const double tilt = grid.tilt();
-  const Stretch x = stretch_of(grid.x(), points, &Point::x), y = stretch_of(grid.y(), points, &Point::y);
-  const int exponent =
-      exponent_of_step(std::max(x.length(), y.length()), tilt == 0 ? step_bits : step_bits_if_tilted);
-  const Steps steps_x(grid.x(), x.from, exponent), steps_y(grid.y(), y.from, exponent);
-  const auto number = [](std::int64_t steps) { return static_cast<cl_int>(steps); };
-  PlaneSites sites;
-  sites.rectangle = {
-      {number(steps_x.from()), number(steps_y.from()), number(steps_x.to()), number(steps_y.to())}};
-  sites.periods = {{number(steps_x.period()), number(steps_y.period()), number(steps_x.length(tilt)), 0}};
-  sites.origin = {x.from, y.from};
+template <typename SitesOfKind>
+SitesOfKind sites_of(const Grid& grid, const std::vector<std::optional<Point>>& points,
+                     const std::vector<double>& weights) {
+  constexpr std::size_t dimensions = SitesOfKind::dimensions;
+  using KindOfSites = SiteKind<dimensions>;
+  using Number = typename SitesOfKind::Number;
+  const Axis* const axes[] = {&grid.x(), &grid.y(), &grid.z()};
+  double Point::*const along[] = {&Point::x, &Point::y, &Point::z};
+  const double tilts[3][2] = {{0, 0}, {grid.tilt(), 0}, {grid.tilt_xz(), grid.tilt_yz()}};
+  SitesOfKind sites;
+  double longest = 0;
+  for (std::size_t axis = 0; axis < dimensions; ++axis) {
+    const Stretch stretch = stretch_of(*axes[axis], points, along[axis]);
+    sites.origin.*along[axis] = stretch.from;
+    longest = std::max(longest, stretch.length());
+  }
+  const int bits = KindOfSites::bits - (grid.is_tilted() ? 1 : 0), exponent = exponent_of_step(longest, bits);
   sites.step = std::ldexp(1.0, exponent);
-  if (steps_x.from() >= steps_x.to() || steps_y.from() >= steps_y.to()) refuse_flat(grid, sites.step);
-  sites.lattice = lattice_of(sites.periods);
-  std::vector<std::array<cl_int, 2>> places(points.size());
+  std::vector<Steps> steps;
+  Edges edges = {};
+  for (std::size_t axis = 0; axis < dimensions; ++axis) {
+    steps.emplace_back(*axes[axis], sites.origin.*along[axis], exponent);
+    const Steps& of_axis = steps.back();
+    sites.lower.s[axis] = static_cast<Number>(of_axis.from());
+    sites.upper.s[axis] = static_cast<Number>(of_axis.to());
+    if (of_axis.from() >= of_axis.to()) refuse_flat(grid, sites.step);
+    if (axes[axis]->is_periodic()) edges[axis][axis] = of_axis.to() - of_axis.from();
+    for (std::size_t other = 0; other < axis; ++other)
+      edges[axis][other] = of_axis.length(tilts[axis][other]);
+  }
+  const LatticeWay most = most_ways(edges);
+  for (std::size_t axis = 0; axis < dimensions; ++axis)
+    if (most[axis] > 0) sites.reach.s[axis] = static_cast<Number>(most[axis] + 1);
+  sites.images = images_of(edges);
+  for (const PeriodCounts& image : sites.images) {
+    const LatticeWay way = sum_of(edges, image);
+    for (std::size_t axis = 0; axis < dimensions; ++axis)
+      sites.shifts.push_back(static_cast<Number>(way[axis]));
+  }
+  std::vector<std::array<Number, dimensions>> places(points.size());
   std::vector<OnCurve> order;
   order.reserve(points.size());
   for (std::size_t id = 0; id < points.size(); ++id) {
     if (!points[id]) continue;
     Point point = *points[id];
-    const std::int64_t step_y = steps_y(point.y);
-    if (tilt != 0) {
-      const double brought_up = point.y - (y.from + static_cast<double>(step_y) * sites.step);
-      point.x -= std::nearbyint(brought_up / y.length()) * tilt;
+    std::array<std::uint32_t, dimensions> place;
+    PeriodCounts beyond = {};
+    for (std::size_t axis = dimensions; axis-- > 0;) {
+      const auto [step, periods] = steps[axis](point.*along[axis]);
+      places[id][axis] = static_cast<Number>(step);
+      place[axis] = static_cast<std::uint32_t>(step >> (KindOfSites::bits - KindOfSites::bits_of_curve));
+      beyond[axis] = periods;
+      for (std::size_t other = 0; other < axis && periods != 0; ++other)
+        point.*along[other] -= static_cast<double>(periods) * tilts[axis][other];
     }
-    const std::int64_t step_x = steps_x(point.x);
-    places[id] = {number(step_x), number(step_y)};
-    order.push_back({hilbert_order(static_cast<std::uint32_t>(step_x), static_cast<std::uint32_t>(step_y)),
-                     static_cast<cl_uint>(id)});
-  }
-  make_tree<2>(sites, std::move(order), places, lags_of(weights, points, sites.step, most_lag), 0);
-  return sites;
-}
-
-VolumeSites sites_of_volume(const Grid& grid, const std::vector<std::optional<Point>>& points,
-                            const std::vector<double>& weights) {
-  const Stretch x = stretch_of(grid.x(), points, &Point::x), y = stretch_of(grid.y(), points, &Point::y),
-                z = stretch_of(grid.z(), points, &Point::z);
-  const int exponent = exponent_of_step(std::max({x.length(), y.length(), z.length()}), step_bits_of_volume);
-  const std::array<Steps, 3> steps = {Steps(grid.x(), x.from, exponent), Steps(grid.y(), y.from, exponent),
-                                      Steps(grid.z(), z.from, exponent)};
-  VolumeSites sites;
-  sites.origin = {x.from, y.from, z.from};
-  sites.step = std::ldexp(1.0, exponent);
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    sites.lower.s[axis] = static_cast<double>(steps[axis].from());
-    sites.upper.s[axis] = static_cast<double>(steps[axis].to());
-    sites.periods.s[axis] = static_cast<double>(steps[axis].period());
-    if (steps[axis].from() >= steps[axis].to()) refuse_flat(grid, sites.step);
-  }
-  std::vector<std::array<double, 3>> places(points.size());
-  std::vector<OnCurve> order;
-  order.reserve(points.size());
-  for (std::size_t id = 0; id < points.size(); ++id) {
-    if (!points[id]) continue;
-    const std::array<double, 3> point = {points[id]->x, points[id]->y, points[id]->z};
-    std::array<std::uint32_t, 3> place;
-    PeriodCounts beyond;
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      const std::int64_t step = steps[axis](point[axis]);
-      places[id][axis] = static_cast<double>(step);
-      place[axis] = static_cast<std::uint32_t>(step >> (step_bits_of_volume - hilbert_bits));
-      beyond[axis] = steps[axis].periods_beyond(point[axis]);
-    }
-    order.push_back({hilbert_order(place), static_cast<cl_uint>(id)});
+    order.push_back({KindOfSites::order(place), static_cast<cl_uint>(id)});
     if (beyond == PeriodCounts{}) continue;
     sites.beyond.resize(points.size());
     sites.beyond[id] = beyond;
   }
-  constexpr double far = 1e17;  // no box is so long
-  make_tree<3>(sites, std::move(order), places, lags_of(weights, points, sites.step, most_lag_of_volume),
-               far);
+  make_tree(sites, std::move(order), places, lags_of(weights, points, sites.step, KindOfSites::most_lag));
   return sites;
 }
+
+template PlaneSites sites_of(const Grid&, const std::vector<std::optional<Point>>&,
+                             const std::vector<double>&);
+template VolumeSites sites_of(const Grid&, const std::vector<std::optional<Point>>&,
+                              const std::vector<double>&);
 
 }  // namespace vorocl

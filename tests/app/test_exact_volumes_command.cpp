@@ -292,6 +292,100 @@ BOOST_AUTO_TEST_CASE(a_plane_is_cut_where_the_line_says_so) {
   BOOST_TEST(content_of(folder / "p.vtu").find("Name=\"kind\"") != std::string::npos);
 }
 
+BOOST_AUTO_TEST_CASE(cells_of_tilted_boxes_are_those_of_what_repeats) {
+  // Edges of a box, and particles at shares of them; some are written whole edges away.
+  const std::array<Vector, 3> edges = {Vector{4, 0, 0}, Vector{1.5, 3, 0}, Vector{-1.25, 0.75, 3.5}};
+  const std::vector<Vector> shares = random_points(60, 1);
+  const auto place = [&](const Vector& share, const Vector& periods) {
+    Vector at = {1, 2, -1};
+    for (std::size_t edge = 0; edge < 3; ++edge) {
+      for (std::size_t axis = 0; axis < 3; ++axis)
+        at[axis] += (share[edge] + periods[edge]) * edges[edge][axis];
+    }
+    return at;
+  };
+  const auto beyond = [](std::size_t i) {
+    return i % 4 == 0 ? Vector{1, -1, 2} : Vector{0, 0, i % 4 == 1 ? -1.0 : 0};
+  };
+  const auto head = [](const std::string& box, const char* columns) {
+    return "ITEM: TIMESTEP\n0\nITEM: NUMBER OF ATOMS\n60\nITEM: BOX BOUNDS " + box + "\nITEM: ATOMS id " +
+           columns;
+  };
+  const std::string tilts = "xy xz yz pp pp pp\n-0.25 6.5 1.5\n2 5.75 -1.25\n-1 2.5 0.75",
+                    general = "abc origin pp pp pp\n4 0 0 1\n1.5 3 0 2\n-1.25 0.75 3.5 -1";
+  std::string
+      dump = head(tilts, "x y z\n"),
+      scaled = head(tilts, "xs ys zs\n"), by_edges = head(general, "x y z\n"),
+      xyz = "60\nLattice=\"4 0 0 1.5 3 0 -1.25 0.75 3.5\" Origin=\"1 2 -1\" Properties=id:I:1:pos:R:3\n",
+      copies = "n,x,y,z\n";
+  for (std::size_t i = 0; i < shares.size(); ++i) {
+    const Vector far = beyond(i), at = place(shares[i], far);
+    const std::string row = fmt::format("{} {} {} {}\n", i + 1, at[0], at[1], at[2]);
+    dump += row;
+    by_edges += row;
+    xyz += row;
+    scaled += fmt::format("{} {} {} {}\n", i + 1, shares[i][0] + far[0], shares[i][1] + far[1],
+                          shares[i][2] + far[2]);
+    for (int image = 0; image < 125; ++image) {
+      const Vector copy = place(shares[i], {image % 5 - 2.0, image / 5 % 5 - 2.0, image / 25 - 2.0});
+      copies += fmt::format("{},{},{},{}\n", image == 62 ? i + 1 : 100 + i, copy[0], copy[1], copy[2]);
+    }
+  }
+  const TemporaryFolder folder;
+  for (const auto& [name, text] : {std::pair{"t.dump", dump},
+                                   {"s.dump", scaled},
+                                   {"e.dump", by_edges},
+                                   {"t.xyz", xyz},
+                                   {"copies.csv", copies}})
+    folder.file(name, text);
+  const std::string columns = "--cell-columns id,volume,surface,neighbours,x,y,z ";
+  // Without periods: a box with all of the copies.
+  succeeds(folder,
+           "cells --exact --points copies.csv --columns x,y,z --keep n --cells copies_c.csv " + columns);
+  std::map<double, TableRow> expected;
+  for (const TableRow& row : read_table(folder / "copies_c.csv").rows)
+    if (*row.back() <= 60) expected[*row.back()] = row;
+  BOOST_TEST_REQUIRE(expected.size() == 60u);
+  for (const std::string name : {"t.dump", "s.dump", "e.dump", "t.xyz"}) {
+    const json result = json::parse(succeeds(
+        folder, "cells --exact --trajectory " + name + " --cells c.csv --adjacency a.csv --json " + columns));
+    BOOST_TEST(result.at("not_mutual") == 0);
+    BOOST_TEST(result.at("uncertified") == 0);
+    const Table cells = read_table(folder / "c.csv");
+    BOOST_TEST_REQUIRE(cells.rows.size() == 60u);
+    double volume = 0;
+    std::vector<Vector> places(61), sums(61);
+    for (const TableRow& row : cells.rows) {
+      places[static_cast<std::size_t>(*row[0])] = {*row[4], *row[5], *row[6]};
+      const TableRow& other = expected.at(*row[0]);
+      volume += *row[1];
+      BOOST_TEST(*row[1] == *other[1], boost::test_tools::tolerance(1e-8));
+      BOOST_TEST(*row[2] == *other[2], boost::test_tools::tolerance(1e-8));
+      BOOST_TEST(*row[3] == *other[3]);
+    }
+    BOOST_TEST(volume == 42, boost::test_tools::tolerance(1e-12));
+    // Faces are normal to the ways to the images behind them: on a closed surface these sum to 0.
+    for (const TableRow& row : read_table(folder / "a.csv").rows) {
+      const auto a = static_cast<std::size_t>(*row[0]), b = static_cast<std::size_t>(*row[1]);
+      const Vector& from = places[a];
+      Vector to = places[b];
+      for (std::size_t edge = 0; edge < 3; ++edge) {
+        for (std::size_t axis = 0; axis < 3; ++axis) to[axis] += *row[3 + edge] * edges[edge][axis];
+      }
+      double square = 0;
+      for (std::size_t axis = 0; axis < 3; ++axis) square += std::pow(to[axis] - from[axis], 2);
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        sums[a][axis] += *row[2] * (to[axis] - from[axis]) / std::sqrt(square);
+        sums[b][axis] -= *row[2] * (to[axis] - from[axis]) / std::sqrt(square);
+      }
+    }
+    for (const Vector& sum : sums)
+      for (const double component : sum) BOOST_TEST(std::abs(component) < 1e-7);
+  }
+  succeeds(folder, "simulate --exact --trajectory t.dump --cells f.csv --polygons p%d.vtu " + columns);
+  BOOST_TEST(read_table(folder / "f.csv").rows.size() == 60u);
+}
+
 BOOST_AUTO_TEST_CASE(what_exact_volumes_cannot_be_is_refused_before_the_work) {
   const TemporaryFolder folder;
   folder.file("t.dump", dump_of({{1, 1, 1}, {2, 2, 3}}, 4));
@@ -301,6 +395,9 @@ BOOST_AUTO_TEST_CASE(what_exact_volumes_cannot_be_is_refused_before_the_work) {
   folder.file(
       "tilted.xyz",
       "2\nLattice=\"4 0 0 1 4 0 0 0 4\" Properties=species:S:1:pos:R:3 pbc=\"T T T\"\nA 1 1 0\nA 1 1 2\n");
+  folder.file(
+      "walls.xyz",
+      "2\nLattice=\"4 0 0 0 4 0 1 0 4\" Properties=species:S:1:pos:R:3 pbc=\"F T T\"\nA 1 1 0\nA 1 1 2\n");
   folder.file(
       "sheared.dump",
       "ITEM: TIMESTEP\n0\nITEM: NUMBER OF ATOMS\n1\nITEM: BOX BOUNDS xy xz yz pp pp pp\n0 5 0\n0 4 1\n"
@@ -322,15 +419,17 @@ BOOST_AUTO_TEST_CASE(what_exact_volumes_cannot_be_is_refused_before_the_work) {
             {"frame 0", "whole periods", "in z"});
     refuses(folder, exact + "--cells c.csv --periodic none --bounds 0,0,0,4,4,2", failure,
             {"frame 0", "particle 2", "outside the bounds, in z"});
-    refuses(folder, command + " --exact --trajectory tilted.xyz --cells c.csv", failure,
-            {"tilted.xyz:2", "tilted (xy = 1)", "volumes cannot take"});
+    refuses(folder, command + " --exact --trajectory tilted.xyz --periodic xz --cells c.csv --device none",
+            failure, {"tilted.xyz", "frame 0", "tilted", "leave --periodic out"});
+    refuses(folder, command + " --exact --trajectory walls.xyz --cells c.csv", failure,
+            {"walls.xyz:2", "tilted in z (xz = 1, yz = 0)", "not periodic"});
     refuses(folder, command + " --exact --trajectory sheared.dump --cells c.csv", failure,
-            {"sheared.dump:8", "tilted in z (xz, yz)"});
+            {"sheared.dump:9", "tilted in z (xz, yz)"});
   }
   refuses(folder, "cells --exact --points flat.csv --columns x,y,z --cells c.csv", failure, {"no column z"});
   refuses(folder, "cells --exact --points p.csv --columns x,y,z --bounds 0,0,0,4,4,4 --cells c.csv", failure,
           {"point 1 at (4, 5, 6)", "outside the bounds"});
   refuses(folder, "cells --exact --mask m.png --size 8x8x8 --cells c.csv", usage, {"--mask is for planes"});
   BOOST_TEST((folder.names() == std::set<std::string>{"t.dump", "flat.dump", "p.csv", "flat.csv",
-                                                      "tilted.xyz", "sheared.dump"}));
+                                                      "tilted.xyz", "walls.xyz", "sheared.dump"}));
 }

@@ -622,7 +622,8 @@ BOOST_AUTO_TEST_CASE(what_volumes_of_files_cannot_be_is_refused) {
   folder.file("flat.csv", "x,y\n1,2\n");
   folder.file("a.lammpstrj", dump_frame(7, first, some, false));
   folder.file("tilted.xyz", "1\nLattice=\"10 0 0 3 20 0 0 0 6\"\nA 1 2 3\n");
-  folder.file("turned.xyz", "1\nLattice=\"10 0 0 0 20 0 1 0 6\"\nA 1 2 3\n");
+  folder.file("sheared.xyz", "1\nLattice=\"10 0 0 0 20 0 1 0 6\"\nA 1 2 3\n");
+  folder.file("turned.xyz", "1\nLattice=\"10 0 1 0 20 0 0 0 6\"\nA 1 2 3\n");
   folder.file("flat.lammpstrj",
               "ITEM: TIMESTEP\n0\nITEM: NUMBER OF ATOMS\n1\nITEM: BOX BOUNDS pp pp pp\n0 1\n0 1\n"
               "0 1\nITEM: ATOMS id x y\n1 0 0\n");
@@ -642,8 +643,11 @@ BOOST_AUTO_TEST_CASE(what_volumes_of_files_cannot_be_is_refused) {
   refuses(folder, dump + "--y-up", usage, {"--y-up is for planes"});
   refuses(folder, dump + "--bounds=0,0,-1,10,20,4", failure,
           {"frame 0", "whole periods: in z", "from -1 to 5"});
-  refuses(folder, "render --trajectory tilted.xyz" + volume, failure, {"tilted.xyz:2", "tilted (xy = 3)"});
-  refuses(folder, "render --trajectory turned.xyz" + volume, failure, {"turned.xyz:2", "third along z"});
+  for (const std::string name : {"tilted.xyz", "sheared.xyz"})
+    refuses(folder, "render --trajectory " + name + volume, failure,
+            {name, "frame 0", "tilted", "--exact cuts"});
+  refuses(folder, "render --trajectory turned.xyz" + volume, failure,
+          {"turned.xyz:2", "turned out of its plane"});
   refuses(folder, "render --trajectory flat.lammpstrj" + volume, failure, {"no z, which a volume needs"});
   refuses(folder, "simulate --random 3 --size 8x8x8 --step-length 1 --frames 2 --labels a%d.npy", usage,
           {"of a --trajectory"});

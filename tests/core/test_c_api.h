@@ -29,9 +29,15 @@ static inline void check(int right, const char* what, const char* file, int line
 
 /* Seed 4 has the pixel of seed 1, and seed 6 is absent: neither has a cell. */
 static const vorocl_grid grid = {
-    VOROCL_AXIS_OF_PIXELS(61), VOROCL_AXIS_OF_PIXELS(40), 0, {0, 0, 0, 0, 0, 0, 0}};
+    VOROCL_AXIS_OF_PIXELS(61), VOROCL_AXIS_OF_PIXELS(40), 0, {0, 0, 0, 0, 0, 0, 0}, 0, 0};
 static const vorocl_window window = {
-    {VOROCL_AXIS_OF_PIXELS(61), VOROCL_AXIS_OF_PIXELS(40), 0, {0, 0, 0, 0, 0, 0, 0}}, 0, 0, 61, 40, 0, 0};
+    {VOROCL_AXIS_OF_PIXELS(61), VOROCL_AXIS_OF_PIXELS(40), 0, {0, 0, 0, 0, 0, 0, 0}, 0, 0},
+    0,
+    0,
+    61,
+    40,
+    0,
+    0};
 enum { width = 61, height = 40, pixels = width * height, seed_count = 8 };
 static const vorocl_point points[seed_count] = {{3.5, 2.5, 0},   {50.5, 5.5, 0}, {20.5, 30.5, 0},
                                                 {60.5, 39.5, 0}, {50.9, 5.1, 0}, {33.5, 16.5, 0},

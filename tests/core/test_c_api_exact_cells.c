@@ -77,6 +77,33 @@ static void test_cells(const vorocl_device* device, const vorocl_seeds* seeds) {
   vorocl_exact_cells_free(all);
 }
 
+/* A box whose third edge leans by half of the others repeats as a body centred lattice. */
+static void test_tilted_volume(const vorocl_device* device) {
+  vorocl_grid box = vorocl_grid_of_voxels(8, 8, 4, VOROCL_PERIODIC_XYZ);
+  const vorocl_point one = {1, 2, 3};
+  vorocl_seeds* seeds = NULL;
+  vorocl_diagram* diagram = NULL;
+  vorocl_exact_cells* all = NULL;
+  vorocl_exact_cell cell;
+  vorocl_exact_face faces[7];
+  vorocl_grid read_grid;
+  size_t count = 0;
+  box.tilt_xz = box.tilt_yz = 4;
+  OK(vorocl_seeds_from_points(device, box, &one, NULL, 1, VOROCL_OUTSIDE_IS_REFUSED, VOROCL_SNAP_NONE,
+                              &seeds));
+  OK(vorocl_seeds_grid(seeds, &read_grid));
+  CHECK(read_grid.tilt == 0 && read_grid.tilt_xz == 4 && read_grid.tilt_yz == 4);
+  OK(vorocl_exact_cells_create(&all));
+  OK(vorocl_exact_cells_cut(all, seeds));
+  OK(vorocl_exact_cells_read(all, &cell, 1));
+  CHECK(cell.neighbours == 14 && cell.area == 256 && cell.certified == 1);
+  OK(vorocl_exact_cells_read_faces(all, faces, 7, &count));
+  CHECK(count == 7);
+  FAILS(vorocl_diagram_create(device, vorocl_window_of_grid(box), &diagram), VOROCL_BAD_ARGUMENT, "tilted");
+  vorocl_exact_cells_free(all);
+  vorocl_seeds_free(seeds);
+}
+
 /* Two points in a box of 4 x 2 x 2, of which x is periodic: two faces between them. */
 static void test_volume(const vorocl_device* device) {
   const vorocl_grid box = vorocl_grid_of_voxels(4, 2, 2, VOROCL_PERIODIC_X);
@@ -171,6 +198,7 @@ int main(void) {
   seeds = make_seeds(device);
   test_cells(device, seeds);
   test_volume(device);
+  test_tilted_volume(device);
   test_failures(device, seeds);
   vorocl_seeds_free(seeds);
   vorocl_device_free(device);

@@ -168,7 +168,7 @@ static void test_own_buffers(const vorocl_device* device) {
 /* The points with other coordinates, along axes that say so, have the same pixels. */
 static void test_axes(const vorocl_device* device) {
   const vorocl_axis x = {width, -1, 1, 0, 0, 1, 1}, y = {height, 0, 8, 0, 1, 0, 1};
-  const vorocl_grid stretched = {x, y, 0, {0, 0, 0, 0, 0, 0, 0}};
+  const vorocl_grid stretched = {x, y, 0, {0, 0, 0, 0, 0, 0, 0}, 0, 0};
   vorocl_point list[seed_count], read[seed_count];
   vorocl_seeds* seeds = NULL;
   vorocl_diagram* diagram = NULL;

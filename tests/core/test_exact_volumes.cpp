@@ -30,6 +30,7 @@ struct Set {
   Position sides;
   std::vector<Position> positions;
   std::vector<double> weights = {};  // whole numbers; none: all the same
+  Position tilts = {};               // xy, xz, yz
 
   Whole weight(std::size_t id) const { return weights.empty() ? Whole(0) : Whole(weights[id]); }
 
@@ -41,18 +42,25 @@ struct Set {
     }
     return false;
   }
+
+  /// An image of a position, so many edges of the box away.
+  Position image(const Position& at, const std::array<std::int64_t, 3>& edges) const {
+    return {at[0] + edges[0] * sides[0] + edges[1] * tilts[0] + edges[2] * tilts[1],
+            at[1] + edges[1] * sides[1] + edges[2] * tilts[2], at[2] + edges[2] * sides[2]};
+  }
 };
 
 constexpr std::int64_t side = std::int64_t{1} << 40;
 constexpr Axes all_periods[] = {Axes::none, Axes::x, Axes::yz, Axes::xyz};
 
-Grid grid_of(const Position& sides, Axes periodic) {
+Grid grid_of(const Position& sides, Axes periodic, const Position& tilts = {}) {
   const auto axis = [](std::int64_t length, bool is_periodic) {
     const Axis along(2, 0, static_cast<double>(length));
     return is_periodic ? along.periodic() : along.closed();
   };
   return Grid(axis(sides[0], has_x(periodic)), axis(sides[1], has_y(periodic)),
-              axis(sides[2], has_z(periodic)));
+              axis(sides[2], has_z(periodic)))
+      .tilted(static_cast<double>(tilts[0]), static_cast<double>(tilts[1]), static_cast<double>(tilts[2]));
 }
 
 std::vector<Point> points_of(const std::vector<Position>& positions) {
@@ -64,7 +72,8 @@ std::vector<Point> points_of(const std::vector<Position>& positions) {
 
 ExactCellsResult cells_of(const Set& set, Axes periodic, const Device& device = test_device()) {
   ExactCellsResult result;
-  exact_cells(Seeds(device, grid_of(set.sides, periodic), points_of(set.positions)), result, {set.weights});
+  exact_cells(Seeds(device, grid_of(set.sides, periodic, set.tilts), points_of(set.positions)), result,
+              {set.weights});
   return result;
 }
 
@@ -275,24 +284,29 @@ struct Cell {
 Cell reference_cell(const Set& set, Axes periodic, std::uint32_t id) {
   const Position& own = set.positions[id];
   const bool repeats[3] = {has_x(periodic), has_y(periodic), has_z(periodic)};
+  // No place is farther from all images of a site than half of the diagonal of what repeats: squared half
+  // steps.
+  Whole farthest = 0;
+  for (std::size_t k = 0; k < 3; ++k) farthest += Whole(set.sides[k]) * set.sides[k] * (repeats[k] ? 1 : 4);
   std::vector<HalfSpace> spaces;
   for (std::uint32_t other = 0; other < set.positions.size(); ++other) {
     if (set.is_covered(other)) continue;
-    const std::int64_t images = set.positions.size() > 3 ? 1 : 2;
+    const std::int64_t images = set.tilts != Position{} ? 9 : set.positions.size() > 3 ? 1 : 2;
     Position way;
     for (way[0] = -images; way[0] <= images; ++way[0]) {
       for (way[1] = -images; way[1] <= images; ++way[1]) {
         for (way[2] = -images; way[2] <= images; ++way[2]) {
-          Position n;
+          Position n = set.image(set.positions[other], way);
           Whole square = 0;
           bool is_there = true;
           for (std::size_t k = 0; k < 3; ++k) {
             is_there = is_there && (repeats[k] || way[k] == 0);
-            n[k] = set.positions[other][k] + way[k] * set.sides[k] - own[k];
+            n[k] -= own[k];
             square += Whole(n[k]) * n[k];
           }
-          if (is_there && square != 0)
-            spaces.push_back({n, square + set.weight(id) - set.weight(other), other});
+          if (!is_there || square == 0) continue;
+          const Whole c = square + set.weight(id) - set.weight(other);
+          if (c <= 0 || c * c <= square * farthest) spaces.push_back({n, c, other});
         }
       }
     }
@@ -441,6 +455,71 @@ BOOST_AUTO_TEST_CASE(small_sets_have_the_cells_of_rational_numbers) {
         check_as_a_whole(result);
         check_polyhedra(result);
       }
+    }
+  }
+}
+
+BOOST_AUTO_TEST_CASE(tilted_sets_have_the_cells_of_rational_numbers) {
+  constexpr std::int64_t half = side / 2;  // as many steps as a tilted box has
+  const Position cube = {half, half, half}, flat = {half, half / 8, half / 16},
+                 bar = {half / 16, half, half / 8};
+  const auto share = [](std::int64_t part) { return part * (half / 100) + 1; };
+  const Set sets[] = {
+      {"random", cube, random_positions(cube, 6, 31), {}, {share(30), share(-20), share(45)}},
+      {"strongly tilted", cube, random_positions(cube, 4, 32), {}, {share(250), share(-130), share(170)}},
+      {"as far as can be", cube, random_positions(cube, 4, 33), {}, {half / 2, half / 2, half / 2}},
+      {"flat", flat, random_positions(flat, 3, 34), {}, {share(40), share(30), share(5)}},
+      {"a bar", bar, random_positions(bar, 3, 35), {}, {share(2), share(-3), share(25)}},
+      {"one", cube, {{5, 7, 9}}, {}, {share(30), share(-20), share(45)}},
+      {"a body centred lattice", {8, 8, 4}, {{1, 2, 3}}, {}, {0, 4, 4}},
+      {"a face centred lattice", {half, half / 2, half / 2}, {{1, 2, 3}}, {}, {half / 2, half / 2, 0}},
+      {"hexagons", {8, 4, 4}, {{1, 2, 3}}, {}, {4, 0, 0}},
+      {"two of a lattice", {16, 8, 4}, {{1, 2, 3}, {9, 2, 3}}, {}, {8, 4, 4}},
+      {"on walls", {8, 8, 8}, {{0, 0, 0}, {4, 4, 4}, {0, 4, 0}, {7, 0, 7}}, {}, {3, -4, 1}}};
+  for (Set set : sets) {
+    for (const double unit : {0.0, static_cast<double>(set.sides[1]) * static_cast<double>(set.sides[1])}) {
+      BOOST_TEST_CONTEXT(set.name << ", weights of " << unit) {
+        if (unit > 0) set.weights = weights_of(set.positions.size(), unit);
+        check_by_rational_numbers(set, Axes::xyz);
+        const ExactCellsResult result = cells_of(set, Axes::xyz);
+        check_as_a_whole(result);
+        check_polyhedra(result);
+      }
+    }
+  }
+  BOOST_TEST(cells_of(sets[6], Axes::xyz).read()[0].neighbours == 14u);
+  BOOST_TEST(cells_of(sets[7], Axes::xyz).read()[0].neighbours == 12u);
+  // With walls across the third axis.
+  for (const auto& [periodic, tilts] : {std::pair{Axes::xy, Position{share(40), 0, 0}},
+                                        {Axes::xz, Position{0, share(-40), 0}},
+                                        {Axes::yz, Position{0, 0, share(30)}}}) {
+    const Set set = {"walls", cube, random_positions(cube, 5, 36), {}, tilts};
+    BOOST_TEST_CONTEXT("periods " << static_cast<int>(periodic)) {
+      check_by_rational_numbers(set, periodic);
+      check_as_a_whole(cells_of(set, periodic));
+    }
+  }
+}
+
+BOOST_AUTO_TEST_CASE(tilted_boxes_are_filled_and_whole_periods_of_a_tilt_change_nothing) {
+  const Position cube = {side / 2, side / 2, side / 2}, rod = {side / 2, side / 20, side / 200};
+  const Set sets[] = {{"random", cube, random_positions(cube, 3000, 6), {}, {side / 5, side / 7, -side / 9}},
+                      {"lattice", cube, lattice(side / 2, 8, face_centred), {}, {side / 8, side / 8, 0}},
+                      {"rod", rod, random_positions(rod, 1000, 5), {}, {side / 5, side / 7, side / 50}}};
+  for (const Set& set : sets) {
+    Set same = set;
+    for (std::size_t k = 0; k < 3; ++k) same.tilts[k] += (k < 2 ? 2 : 0) * set.sides[0];
+    BOOST_TEST_CONTEXT(set.name) {
+      const ExactCellsResult result = cells_of(set, Axes::xyz);
+      check_as_a_whole(result);
+      check_polyhedra(result);
+      const std::vector<ExactCell> cells = result.read(), others = cells_of(same, Axes::xyz).read();
+      std::size_t different = 0;
+      for (std::size_t id = 0; id < cells.size(); ++id) {
+        const bool is_same = std::abs(cells[id].area / others[id].area - 1) < 1e-13;
+        different += is_same && cells[id].neighbours == others[id].neighbours ? 0 : 1;
+      }
+      BOOST_TEST(different == 0u);
     }
   }
 }
@@ -619,17 +698,17 @@ BOOST_AUTO_TEST_CASE(faces_say_which_image_is_behind_them) {
   std::mt19937_64 random(12);
   for (Position& at : moved.positions)
     for (std::size_t k = 0; k < 3; ++k) at[k] += (static_cast<std::int64_t>(random() % 7) - 3) * set.sides[k];
-  for (const Set& of : {set, moved}) {
+  Set tilted = moved, strongly = moved;
+  tilted.tilts = {300, -200, 150};
+  strongly.tilts = {-2700, 1800, 750};
+  for (const Set& of : {set, moved, tilted, strongly}) {
     const ExactCellsResult result = cells_of(of, Axes::xyz);
     const std::vector<ExactFace> faces = result.read_faces();
     std::vector<Point> sums(of.positions.size());
     for (const ExactFace& face : faces) {
       BOOST_TEST_REQUIRE(face.a <= face.b);
-      Point way;
-      double* const along[] = {&way.x, &way.y, &way.z};
-      for (std::size_t k = 0; k < 3; ++k)
-        *along[k] = static_cast<double>(of.positions[face.b][k] + face.image[k] * of.sides[k] -
-                                        of.positions[face.a][k]);
+      const Position behind = of.image(of.positions[face.b], {face.image[0], face.image[1], face.image[2]});
+      const Point way = difference(points_of({behind})[0], points_of(of.positions)[face.a]);
       const double length = std::sqrt(dot(way, way));
       const double share = face.area / length;
       for (const auto& [id, sign] : {std::pair{face.a, 1}, {face.b, -1}})
@@ -703,6 +782,18 @@ BOOST_AUTO_TEST_CASE(cells_are_in_the_units_of_the_data_and_absent_seeds_have_no
 
 BOOST_AUTO_TEST_CASE(what_cannot_be_is_refused) {
   ExactCellsResult result;
+  const Grid tilted = Grid(4, 4, 4, Axes::xyz).tilted(1, 0, 1);
+  check_error([&] { Diagram(test_device(), tilted); }, {"tilted", "exact cells"});
+  check_error([&] { Grid(4, 4, 4, Axes::xy).tilted(0, 1); }, {"tilted box", "periodic in x and z"});
+  check_error([&] { Grid(4, 4, 4, Axes::xz).tilted(0, 0, 1); }, {"tilted box", "periodic in y and z"});
+  check_error([&] { Grid(4, 4, 4, Axes::xyz).tilted(0, 1e9); }, {"x and z", "1024 periods"});
+  check_error([&] { Grid(4, 4, Axes::xy).tilted(1, 1); }, {"plane", "xz and yz"});
+  const Axis low = Axis(2, 0, 1e-6).periodic(), wide = Axis(2, 0, 1).periodic();
+  check_error(
+      [&] {
+        exact_cells(Seeds(test_device(), Grid(wide, low, low).tilted(0.3, 0.2, 5e-7), {{0, 0, 0}}), result);
+      },
+      {"tilted", "too flat", "65535"});
   const Grid flat(Axis(2, 0, 10), Axis(2, 0, 10), Axis(2, 3, 3));
   check_error(
       [&] {

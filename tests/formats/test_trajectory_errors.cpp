@@ -102,10 +102,10 @@ BOOST_AUTO_TEST_CASE(bad_dumps_are_refused_with_their_line) {
       {dump(box_of("pp pp pp", "3 3", "0 1"), "x y", {}), {":8: ", "periodic in x", "no length"}},
       {dump(box_of("pp pp pp", "-1e308 1e308", "0 1"), "x y", {}), {":8: ", "no bounds"}},
       {dump("xy xz yz ff pp pp\n0 10 5\n0 10 0\n-1 1 0", "x y", {}), {":8: ", "tilted but not periodic"}},
-      {dump("xy xz yz pp pp pp\n0 10 5\n0 10 1\n-1 1 0", "x y", {}), {":8: ", "tilted in z"}},
+      {dump("xy xz yz pp pp pp\n0 10 5\n0 10 1\n-1 1 0", "x y", {}), {":9: ", "tilted in z"}},
       {dump("abc origin pp pp pp\n3 4 1 0\n-4 3 0 0\n0 0 1 0", "x y", {}), {":8: ", "turned out of"}},
-      {dump("abc origin pp pp pp\n3 0 0 0\n0 3 0 0\n1 0 1 0", "x y", {}), {":8: "}},
-      {dump("abc origin pp pp pp\n3 0 0 0\n0 3 0 0\n0 1 1 0", "x y", {}), {":8: "}},
+      {dump("abc origin pp pp pp\n3 0 0 0\n0 3 0 0\n1 0 1 0", "x y", {}), {":9: ", "tilted in z"}},
+      {dump("abc origin pp pp pp\n3 0 0 0\n0 3 0 0\n0 1 1 0", "x y", {}), {":9: ", "tilted in z"}},
       // the rows
       {dump(periodic_box, "id type vx", {"1 1 1"}), {":9: ", "no position", "xsu ysu"}},
       {dump(periodic_box, "id x ys", {"1 1 1"}), {":9: ", "no position"}},

@@ -3,6 +3,9 @@
 #ifndef VOROCL_EXACT_CELLS_CELL
 #define VOROCL_EXACT_CELLS_CELL
 
+#define NUMBER double
+#define NUMBER_4 double4
+
 #include "exact_cells/lanes.cl"
 #include "exact_cells/wide.cl"
 
@@ -46,7 +49,7 @@ typedef uchar4 indices_t;
   LIST(ulong, gone, WORDS)                 \
   LIST(ulong, unsure, WORDS)               \
   LIST(uint, sites, MOST_PLANES)           \
-  LIST(index_t, images, MOST_PLANES)       \
+  LIST(ushort, images, MOST_PLANES)        \
   LIST(index_t, ring_p, ROOM + 16)         \
   LIST(index_t, ring_q, ROOM + 16)         \
   LIST(index_t, stays, ROOM + 16)          \

@@ -222,7 +222,7 @@ static inline bool cut(cell_t* cell, double3 n, uint site, int image) {
   const int plane = cell->count++;
   cell->planes[plane] = (double4)(n, c);
   cell->sites[plane] = site;
-  cell->images[plane] = (index_t)image;
+  cell->images[plane] = (ushort)image;
   find_slots(cell, edges);
   if (cell->is_doubtful && !is_ring(cell, edges)) {
     cell->is_broken = true;
@@ -249,10 +249,9 @@ static inline bool cut(cell_t* cell, double3 n, uint site, int image) {
   return true;
 }
 
-// Begins a cell as a box around its site: plane 2 k and the next one are its ends along axis k. `low` and
-// `high` are in half steps.
-static inline void begin_box(cell_t* cell, global const double* lags, uint site, const double* low,
-                             const double* high) {
+// Begins a cell as a box around its site: plane 2 k and the next one are its ends along axis k, whose `sides` are so
+// far away, in half steps. They are as long as those of sites, so that `slack` does no more to them.
+static inline void begin_box(cell_t* cell, global const double* lags, uint site, const double* sides) {
   for (int k = 0; k < ROOM; k += 8) {
     vstore8((double8)0, 0, cell->x + k);
     vstore8((double8)0, 0, cell->y + k);
@@ -268,11 +267,17 @@ static inline void begin_box(cell_t* cell, global const double* lags, uint site,
   cell->slack = 0;
   cell->count = 6;
   cell->is_full = cell->is_broken = cell->is_doubtful = false;
+  for (int p = 0; p < 6; ++p) {
+    const double way = (p & 1) != 0 ? WALL : -WALL;
+    cell->planes[p] = (double4)(p < 2 ? way : 0, p / 2 == 1 ? way : 0, p > 3 ? way : 0, way * sides[p]);
+    cell->sites[p] = NO_CELL;
+    cell->images[p] = 0;
+  }
   for (int v = 0; v < 8; ++v) {
     const int i = v & 1, j = v >> 1 & 1, k = v >> 2;
-    cell->x[v] = i != 0 ? high[0] : low[0];
-    cell->y[v] = j != 0 ? high[1] : low[1];
-    cell->z[v] = k != 0 ? high[2] : low[2];
+    cell->x[v] = sides[i];
+    cell->y[v] = sides[2 + j];
+    cell->z[v] = sides[4 + k];
     cell->error[v] = 0x1p-50 * (fabs(cell->x[v]) + fabs(cell->y[v]) + fabs(cell->z[v]));
     const bool is_odd = ((i + j + k) & 1) == 1;  // mirrored
     const index_t px = (index_t)i, py = (index_t)(2 + j), pz = (index_t)(4 + k);

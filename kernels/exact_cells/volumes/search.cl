@@ -7,72 +7,17 @@
 
 #include "exact_cells/volumes/polyhedron.cl"
 
-// Which sites there are: in the kernels' arguments, and as what functions take.
-#define SITE_PARAMETERS                                                                          \
-  uint count, global const double *sites, global const double *boxes, global const uint *levels, \
-      global const double *lags, global const double *box_lags, int top, double4 lower, double4 upper, double4 periods
-#define SITE_ARGUMENTS \
-  { count, sites, boxes, levels, lags, box_lags, top, lower, upper, periods }
-
-typedef struct {
-  uint count;                     // of sites
-  global const double* sites;     // per leaf eight x, eight y and eight z, in steps; far away behind the last site
-  global const double* boxes;     // per group eight lower and eight upper x, y, z; far away behind the last one
-  global const uint* levels;      // by level: its first group. Those of level 1 are boxes around leaves.
-  global const double* lags;      // per site, and null without weights
-  global const double* box_lags;  // per group eight
-  int top;                        // the last level
-  double4 lower, upper;           // of the box
-  double4 periods;                // 0 along an axis without
-} tree_t;
-
 static inline double3 site_at(const tree_t* tree, uint site) {
   global const double* const at = tree->sites + (size_t)(site >> FAN_BITS) * (3 * FAN) + (site & (FAN - 1));
   return (double3)(at[0], at[FAN], at[2 * FAN]);
 }
 
-// --- images ---
+// How far away an image of all sites is.
+static inline double3 shift_of(const tree_t* tree, int image) { return vload3((size_t)image, tree->shifts); }
 
-// An image is i, j and k periods away along x, y and z, each from -1 to 1: one a period nearer is nearer to
-// the whole cell. They are counted as 9 k + 3 j + i + ITSELF.
-#define ITSELF 13
-#define IMAGES 27
-
-static inline double3 shift_of(const tree_t* tree, int image) {
-  return tree->periods.xyz * (double3)(image % 3 - 1, image / 3 % 3 - 1, image / 9 - 1);
-}
-
-// The images of the box, itself first; those across sides of it are none.
-static inline bool has_image(const tree_t* tree, int image) {
-  return (image % 3 == 1 || tree->periods.x > 0) && (image / 3 % 3 == 1 || tree->periods.y > 0) &&
-         (image / 9 == 1 || tree->periods.z > 0);
-}
-
-// Whether cells begin with this image of their own site, or it is the site itself.
-static inline bool begins(uint site, uint other, int image) {
-  const int way = image < ITSELF ? ITSELF - image : image - ITSELF;
-  return other == site && (way == 0 || way == 1 || way == 3 || way == 9);
-}
-
-// A cell begins as the box, or where an axis is periodic within the planes towards its own images.
 static inline void begin_cell(cell_t* cell, const tree_t* tree, double3 at, uint site) {
-  const double3 below = 2 * (tree->lower.xyz - at), above = 2 * (tree->upper.xyz - at);
-  const double periods[3] = {tree->periods.x, tree->periods.y, tree->periods.z};
-  double low[3] = {below.x, below.y, below.z}, high[3] = {above.x, above.y, above.z};
-  for (int axis = 0, way = 1; axis < 3; ++axis, way *= 3) {
-    const bool is_periodic = periods[axis] > 0;
-    if (is_periodic) low[axis] = -periods[axis];
-    if (is_periodic) high[axis] = periods[axis];
-    for (int end = 0; end < 2; ++end) {
-      const int plane = 2 * axis + end;
-      const double length = (is_periodic ? periods[axis] : 1) * (end == 0 ? -1 : 1);
-      cell->planes[plane] = (double4)(axis == 0 ? length : 0, axis == 1 ? length : 0, axis == 2 ? length : 0,
-                                      length * (end == 0 ? low[axis] : high[axis]));
-      cell->sites[plane] = is_periodic ? site : NO_CELL;
-      cell->images[plane] = (index_t)(is_periodic ? ITSELF + (end == 0 ? -way : way) : ITSELF);
-    }
-  }
-  begin_box(cell, tree->lags, site, low, high);
+  const double sides[6] = {FIRST_SIDES(tree, at, x), FIRST_SIDES(tree, at, y), FIRST_SIDES(tree, at, z)};
+  begin_box(cell, tree->lags, site, sides);
 }
 
 // --- boxes and sites, eight at a time ---
@@ -126,7 +71,7 @@ typedef struct {
   float x[MOST_NEAR * FAN], y[MOST_NEAR * FAN], z[MOST_NEAR * FAN];
   double exact_x[MOST_NEAR * FAN], exact_y[MOST_NEAR * FAN], exact_z[MOST_NEAR * FAN];
   uint leaves[MOST_NEAR];
-  uchar images[MOST_NEAR];
+  ushort images[MOST_NEAR];
   double3 base;      // the leaf's first site
   float3 low, high;  // its box
   double lag;        // the greatest of the leaf's sites
@@ -141,7 +86,7 @@ static inline void add_leaf(near_t* near, const tree_t* tree, uint leaf, int ima
   const double8 x = vload8(at, tree->sites) - from.x, y = vload8(at + 1, tree->sites) - from.y,
                 z = vload8(at + 2, tree->sites) - from.z;
   near->leaves[k] = leaf;
-  near->images[k] = (uchar)image;
+  near->images[k] = (ushort)image;
   vstore8(x, (size_t)k, near->exact_x);
   vstore8(y, (size_t)k, near->exact_y);
   vstore8(z, (size_t)k, near->exact_z);
@@ -155,9 +100,7 @@ static inline bool list_near(near_t* near, const tree_t* tree, float distance) {
   near->count = 0;
   near->distance = distance;
   near->least = INFINITY;
-  for (int i = 0; i < IMAGES; ++i) {
-    const int image = (i + ITSELF) % IMAGES;
-    if (!has_image(tree, image)) continue;
+  for (int image = 0; image < tree->images; ++image) {
     const double3 from = near->base - shift_of(tree, image);
     int within[MOST_LEVELS + 1];  // by level: the boxes that are still to be looked into
     uint firsts[MOST_LEVELS + 1];
@@ -222,7 +165,7 @@ static inline void find_near(near_t* near, const tree_t* tree, uint leaf) {
 static inline bool cut_by_listed(cell_t* cell, const near_t* near, int k, double3 from, uint site) {
   const uint other = near->leaves[k >> FAN_BITS] * FAN + (uint)(k & (FAN - 1));
   const int image = near->images[k >> FAN_BITS];
-  if (begins(site, other, image)) return false;
+  if (other == site && image == 0) return false;
   return cut(cell, (double3)(near->exact_x[k], near->exact_y[k], near->exact_z[k]) - from, other, image);
 }
 
@@ -302,7 +245,7 @@ static inline float cut_by_leaf(cell_t* cell, const tree_t* tree, uint leaf, dou
   for (uint next = least_of(order); next < as_uint(end); next = least_of(order)) {
     order = without(order, next);
     const uint other = leaf * FAN + (next & (FAN - 1));
-    if (other >= tree->count || begins(site, other, image)) continue;
+    if (other >= tree->count || (other == site && image == 0)) continue;
     if (cut(cell, site_at(tree, other) - from, other, image)) end = end_of(cell);
   }
   return end;
@@ -310,9 +253,7 @@ static inline float cut_by_leaf(cell_t* cell, const tree_t* tree, uint leaf, dou
 
 // Cuts a cell by all sites that are not in the list, the nearest box first.
 static inline void cut_by_tree(cell_t* cell, const tree_t* tree, const near_t* near, double3 at, uint site, float end) {
-  for (int i = 0; i < IMAGES; ++i) {
-    const int image = (i + ITSELF) % IMAGES;
-    if (!has_image(tree, image)) continue;
+  for (int image = 0; image < tree->images; ++image) {
     const double3 from = at - shift_of(tree, image);
     uint8 orders[MOST_LEVELS + 1];  // by level: the boxes that are still to be looked into
     uint firsts[MOST_LEVELS + 1];

@@ -11,7 +11,9 @@
 // How large the numbers are: with positions of b = 40 bits, n has b + 1 bits and a sign, a determinant of
 // three is less than 2^(3 b + 3), |n|^2 less than 2^(2 b + 2), and a lag at most 2^(2 b + 3), beyond which a
 // cell is empty: so c is less than 2^(2 b + 4), their product less than 2^(5 b + 7) = 2^207, and a sum of
-// four less than 2^209. So determinants and c take 128 bits, and sums 256.
+// four less than 2^209. So determinants and c take 128 bits, and sums 256. In a tilted box,
+// whose sides have 2^39 steps at most, a cell begins as a cube with half of the box's diagonal each way. Its corners
+// are at most 1.5 sides away, and sites that may cut 3 sides: less than the diagonal of a box of 2^40.
 
 #ifndef VOROCL_EXACT_CELLS_SIDES
 #define VOROCL_EXACT_CELLS_SIDES
@@ -32,6 +34,10 @@ static inline wide_t times(wide_t a, long b) {
 typedef struct {
   long x, y, z;
 } way_t;
+
+// A plane in whole numbers, of which those of walls are short.
+#define WALL 0x1p39
+static inline double4 whole_plane(double4 plane, uint site) { return site == NO_CELL ? plane / WALL : plane; }
 
 static inline way_t way_of(double4 plane) {
   const way_t way = {(long)plane.x, (long)plane.y, (long)plane.z};
@@ -194,10 +200,10 @@ static inline int side_of(const cell_t* cell, int v, double4 plane, uint site, b
   uint sites[4];
   double c[4];
   for (int k = 0; k < 4; ++k) {
-    const double4 p = k < 3 ? cell->planes[of[k]] : plane;
+    sites[k] = k < 3 ? cell->sites[of[k]] : site;
+    const double4 p = whole_plane(k < 3 ? cell->planes[of[k]] : plane, sites[k]);
     n[k] = way_of(p);
     c[k] = p.w;
-    sites[k] = k < 3 ? cell->sites[of[k]] : site;
   }
   wide_t determinants[4];
   int side;
@@ -255,7 +261,7 @@ static inline void place_exactly(cell_t* cell, int v) {
   way_t n[3];
   wide_t c[3], x[3], y[3], z[3];
   for (int k = 0; k < 3; ++k) {
-    const double4 plane = cell->planes[of[k]];
+    const double4 plane = whole_plane(cell->planes[of[k]], cell->sites[of[k]]);
     n[k] = way_of(plane);
     c[k] = constant_of(cell, n[k], plane.w, cell->sites[of[k]]);
   }

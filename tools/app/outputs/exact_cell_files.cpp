@@ -28,7 +28,10 @@ PeriodCounts move_to_cell(Point& seed, const ExactCell& cell, const Grid& grid) 
     seed.*along += periods * length;
     return static_cast<std::int32_t>(periods);
   };
-  PeriodCounts moved = {0, move(grid.y(), &Point::y), move(grid.z(), &Point::z)};
+  PeriodCounts moved = {0, 0, move(grid.z(), &Point::z)};
+  seed.x += moved[2] * grid.tilt_xz();
+  seed.y += moved[2] * grid.tilt_yz();
+  moved[1] = move(grid.y(), &Point::y);
   seed.x += moved[1] * grid.tilt();
   moved[0] = move(grid.x(), &Point::x);
   return moved;

@@ -25,7 +25,8 @@ bool has_depth(const SeedOptions& options) {
   const std::string& path = options.points + options.trajectory;  // one of these
   if (!std::filesystem::is_regular_file(path, code)) return false;
   Frame frame;
-  if (!options.trajectory.empty()) return open_trajectory(path)->next(frame) && frame.z_span > 0;
+  if (!options.trajectory.empty())
+    return open_trajectory(path, "", Wanted::depth)->next(frame) && frame.z_span > 0;
   return extension_of(path) == ".npy" && holds_points_of_volume(path);
 }
 

@@ -11,8 +11,8 @@ namespace vorocl::command {
 /// the bounds, else in the domain, the box of the trajectory's frame or the points' bounding box; along a
 /// periodic axis in the domain or the box. Other seeds are the centres of pixels. Where there are no pixels
 /// the window's grid has few, which do not count: it says the rectangle or box, its periodic axes and its
-/// tilt. Throws UsageError, Error if a file is bad, or a weight, or a box is tilted of which an axis is said
-/// not to be periodic, or which is a volume.
+/// tilts. Throws UsageError, Error if a file is bad, or a weight, or a box is tilted of which an axis is said
+/// not to be periodic.
 ///
 /// It is a volume if an option says so that planes do not have (bounds of six numbers, z among the columns or
 /// the periodic axes, a depth), or if neither bounds nor columns say that it is a plane, and the points are

@@ -157,14 +157,12 @@ SimulationBox LammpsDump::read_box(std::string_view title, std::size_t frame_lin
     const Edges edges = {{x[0], x[1], x[2]}, {y[0], y[1], y[2]}, {z[0], z[1], z[2]}};
     return box_from_edges(lines_, edges, {x[3], y[3], z[3]}, sides[0], sides[1], sides[2]);
   }
-  const double tilt = x[2];
-  // The bounds in x are those of the whole parallelogram.
-  const BoxAxis x_axis{x[0] - std::min(0.0, tilt), x[1] - std::max(0.0, tilt), sides[0]};
-  const BoxAxis y_axis{y[0], y[1], sides[1]};
-  if (!is_negligible(y[2], x_axis.length()) || !is_negligible(z[2], y_axis.length())) {
-    throw lines_.error("the box is tilted in z (xz, yz); planes take a tilt xy alone, and volumes none");
-  }
-  return SimulationBox(lines_, x_axis, y_axis, {z[0], z[1], sides[2]}, tilt);
+  const double xy = x[2], xz = y[2], yz = z[2];
+  // The bounds are those of the whole parallelepiped.
+  const BoxAxis x_axis{x[0] - std::min({0.0, xy, xz, xy + xz}), x[1] - std::max({0.0, xy, xz, xy + xz}),
+                       sides[0]};
+  const BoxAxis y_axis{y[0] - std::min(0.0, yz), y[1] - std::max(0.0, yz), sides[1]};
+  return SimulationBox(lines_, x_axis, y_axis, {z[0], z[1], sides[2]}, xy, xz, yz);
 }
 
 }  // namespace vorocl::command

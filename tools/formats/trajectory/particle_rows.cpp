@@ -99,6 +99,8 @@ void ParticleRows::read(LineReader& lines, const RowLayout& layout, const Partic
   if (is_volume()) {
     if (!layout.z) throw lines.error("the particles have no z, which a volume needs");
     if (box) box->check_volume(lines);
+  } else if (box && wanted_ != Wanted::depth) {
+    box->check_plane(lines);
   }
   const std::size_t first_line = lines.number() + 1;
   const bool wants_box = wanted_ == Wanted::box || wanted_ == Wanted::box_of_volume;
@@ -117,7 +119,7 @@ void ParticleRows::read(LineReader& lines, const RowLayout& layout, const Partic
     }
     sort(lines, first_line);
   }
-  frame.z_span = ids_.empty() ? 0 : (highest_z_ - lowest_z_) * (layout.scaled ? box->depth() : 1);
+  frame.z_span = ids_.empty() ? 0 : highest_z_ - lowest_z_;
   give(ids_, frame.ids);
   give(positions_, frame.positions);
   give(z_, frame.z);
@@ -154,13 +156,10 @@ void ParticleRows::add(const LineReader& lines, const RowLayout& layout, const P
       layout.id ? parse_id(lines, fields_[*layout.id]) : static_cast<std::uint32_t>(ids_.size());
   Point position = {real_in(lines, fields_[layout.x], "a finite x"),
                     real_in(lines, fields_[layout.y], "a finite y")};
-  double z = 0;
   if (is_volume()) {
-    z = real_in(lines, fields_[*layout.z], "a finite z");
-    if (box) z = box->place_z(lines, id, z, layout.scaled);
-    z_.push_back(z);
+    position.z = real_in(lines, fields_[*layout.z], "a finite z");
   } else if (layout.z) {
-    z = parse_number<double>(fields_[*layout.z]).value_or(0);
+    position.z = parse_number<double>(fields_[*layout.z]).value_or(0);
   }
   if (layout.value) {
     const std::string_view field = fields_[*layout.value];
@@ -168,14 +167,16 @@ void ParticleRows::add(const LineReader& lines, const RowLayout& layout, const P
       throw lines.error(fmt::format("{} stands where a number is due, to colour by", shown(field)));
   }
   if (box) position = layout.scaled ? box->from_scaled(position) : box->turned(position);
-  if (box) position = box->place(lines, id, position);
-  if (!std::isfinite(position.x) || !std::isfinite(position.y) || !std::isfinite(z)) {
+  if (box) position = box->place(lines, id, position, is_volume());
+  if (!std::isfinite(position.x) || !std::isfinite(position.y) || !std::isfinite(position.z)) {
     throw lines.error("the position is too far from the box to be computed");
   }
   ids_.push_back(id);
+  lowest_z_ = std::min(lowest_z_, position.z);
+  highest_z_ = std::max(highest_z_, position.z);
+  if (is_volume()) z_.push_back(position.z);
+  position.z = 0;
   positions_.push_back(position);
-  lowest_z_ = std::min(lowest_z_, z);
-  highest_z_ = std::max(highest_z_, z);
 }
 
 void ParticleRows::sort(const LineReader& lines, std::size_t first_line) {

@@ -80,11 +80,13 @@ void hold(const LineReader& lines, std::uint32_t id, const BoxAxis& axis, char n
 bool is_negligible(double length, double beside) { return std::abs(length) <= 1e-9 * std::abs(beside); }
 
 SimulationBox::SimulationBox(const LineReader& lines, const BoxAxis& x, const BoxAxis& y, const BoxAxis& z,
-                             double tilt)
+                             double tilt, double xz, double yz)
     : x_(x), y_(y), z_(z), tilt_(tilt), box_{x.low, y.low, x.high, y.high, x.periodic(), y.periodic(), tilt} {
   box_.z0 = z.low;
   box_.z1 = z.high;
   box_.periodic_z = z.periodic();
+  box_.xz = is_negligible(xz, x.length()) ? 0 : xz;
+  box_.yz = is_negligible(yz, y.length()) ? 0 : yz;
   box_.open_x0 = x.sides.first == Side::open;
   box_.open_x1 = x.sides.second == Side::open;
   box_.open_y0 = y.sides.first == Side::open;
@@ -102,18 +104,17 @@ SimulationBox::SimulationBox(const LineReader& lines, const BoxAxis& x, const Bo
 
 void SimulationBox::check_volume(const LineReader& lines) const {
   check(lines, z_, 'z');
-  if (is_negligible(tilt_, x_.length())) return;
-  throw lines.error(fmt::format("the box is tilted (xy = {}), which volumes cannot take", tilt_));
+  const bool is_tilted = box_.xz != 0 || box_.yz != 0;
+  const bool repeats = z_.periodic() && (box_.xz == 0 || x_.periodic()) && (box_.yz == 0 || y_.periodic());
+  if (!is_tilted || repeats) return;
+  throw lines.error(
+      fmt::format("the box is tilted in z (xz = {}, yz = {}), but not periodic along both axes of each tilt",
+                  box_.xz, box_.yz));
 }
 
-double SimulationBox::place_z(const LineReader& lines, std::uint32_t id, double z, bool scaled) {
-  if (scaled) z = unscaled(z_, z);
-  if (z_.periodic()) {
-    wrap(z_, z);
-  } else {
-    hold(lines, id, z_, 'z', z, box_.z0, box_.z1);
-  }
-  return z;
+void SimulationBox::check_plane(const LineReader& lines) const {
+  if (box_.xz == 0 && box_.yz == 0) return;
+  throw lines.error("the box is tilted in z (xz, yz); planes take a tilt xy alone");
 }
 
 void SimulationBox::turn(Point direction, bool flipped) {
@@ -126,15 +127,24 @@ void SimulationBox::turn(Point direction, bool flipped) {
 Point SimulationBox::turned(Point position) const {
   if (direction_.y == 0 && direction_.x > 0) return position;
   const double x = position.x - x_.low, y = position.y - y_.low;
-  return {x_.low + (x * direction_.x + y * direction_.y), y_.low + (y * direction_.x - x * direction_.y)};
+  return {x_.low + (x * direction_.x + y * direction_.y), y_.low + (y * direction_.x - x * direction_.y),
+          position.z};
 }
 
 Point SimulationBox::from_scaled(Point scaled) const {
   if (is_flipped_) scaled.y = 1 - scaled.y;
-  return {unscaled(x_, scaled.x) + scaled.y * tilt_, unscaled(y_, scaled.y)};
+  return {unscaled(x_, scaled.x) + scaled.y * tilt_ + scaled.z * box_.xz,
+          unscaled(y_, scaled.y) + scaled.z * box_.yz, unscaled(z_, scaled.z)};
 }
 
-Point SimulationBox::place(const LineReader& lines, std::uint32_t id, Point position) {
+Point SimulationBox::place(const LineReader& lines, std::uint32_t id, Point position, bool is_volume) {
+  if (is_volume && z_.periodic()) {
+    const double turns = wrap(z_, position.z);
+    position.x -= turns * box_.xz;
+    position.y -= turns * box_.yz;
+  } else if (is_volume) {
+    hold(lines, id, z_, 'z', position.z, box_.z0, box_.z1);
+  }
   if (y_.periodic()) {
     // The copies of the tilted box above it are shifted in x.
     position.x -= wrap(y_, position.y) * tilt_;
@@ -153,12 +163,8 @@ SimulationBox box_from_edges(const LineReader& lines, const Edges& edges, Point 
                              Sides z) {
   const auto& [a, b, c] = edges;
   const double length = std::max(std::hypot(a[0], a[1]), std::hypot(b[0], b[1]));
-  for (const double component : {a[2], b[2], c[0], c[1]}) {
-    if (!is_negligible(component, length)) {
-      throw lines.error(
-          "the box is turned out of its plane, or tilted in z; its first two edges must lie in the xy plane "
-          "and its third along z");
-    }
+  if (!is_negligible(a[2], length) || !is_negligible(b[2], length)) {
+    throw lines.error("the box is turned out of its plane; its first two edges must lie in the xy plane");
   }
   const double side = is_negligible(a[1], a[0]) ? std::abs(a[0]) : std::hypot(a[0], a[1]);
   const Point direction = side == 0                   ? Point{1, 0}
@@ -175,7 +181,8 @@ SimulationBox box_from_edges(const LineReader& lines, const Edges& edges, Point 
     std::swap(y.first, y.second);
   }
   SimulationBox box(lines, {origin.x, origin.x + side, x}, {origin.y, origin.y + height, y},
-                    {origin.z, origin.z + c[2], z}, tilt);
+                    {origin.z, origin.z + c[2], z}, tilt, c[0] * direction.x + c[1] * direction.y,
+                    c[1] * direction.x - c[0] * direction.y);
   box.turn(direction, flipped);
   return box;
 }

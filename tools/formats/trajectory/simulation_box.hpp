@@ -26,17 +26,21 @@ struct BoxAxis {
 };
 
 /// A parallelogram with the edges (x.length(), 0) and (tilt, y.length()), whose lower left corner is
-/// (x.low, y.low); in a volume as deep as z is long.
+/// (x.low, y.low); in a volume a parallelepiped, whose third edge is (xz, yz, z.length()).
 class SimulationBox {
  public:
   /// Throws Error, at the reader's line, for bounds in the wrong order, a periodic axis of no length, and a
   /// tilt where not both axes are periodic: only then a rectangle holds the same particles. Of z nothing is
   /// asked, which planes leave out: see check_volume().
   SimulationBox(const LineReader& lines, const BoxAxis& x, const BoxAxis& y, const BoxAxis& z,
-                double tilt = 0);
+                double tilt = 0, double xz = 0, double yz = 0);
 
-  /// Throws Error, at the reader's line, for what is wrong of z, and for a tilt.
+  /// Throws Error, at the reader's line, for what is wrong of z.
   void check_volume(const LineReader& lines) const;
+
+  /// Throws Error, at the reader's line, if the third edge is not along z: seen along z there is no plane
+  /// then.
+  void check_plane(const LineReader& lines) const;
 
   /// Says that the box was turned in its plane about its corner until its first edge lay along x, `flipped`
   /// if its second one was turned round with it; by how much is where that edge pointed.
@@ -50,13 +54,8 @@ class SimulationBox {
 
   /// Where a particle is drawn: wrapped into the box on a periodic axis; unchanged on another axis, where an
   /// open side of the box grows to hold it. Throws Error, at the reader's line, for a particle outside a
-  /// wall.
-  Point place(const LineReader& lines, std::uint32_t id, Point position);
-
-  /// The same of z.
-  double place_z(const LineReader& lines, std::uint32_t id, double z, bool scaled);
-
-  double depth() const { return z_.length(); }
+  /// wall. In a plane z stays.
+  Point place(const LineReader& lines, std::uint32_t id, Point position, bool is_volume);
 
   /// Whether a side gives way to particles, in a volume one of z too.
   bool grows(bool is_volume) const {
@@ -85,7 +84,7 @@ struct Edges {
 };
 
 /// The box with these edges, turned in its plane until the first lies along x. Throws Error, at the reader's
-/// line, unless the first two lie in the xy plane and the third along z, and where SimulationBox does.
+/// line, unless the first two lie in the xy plane, and where SimulationBox does.
 SimulationBox box_from_edges(const LineReader& lines, const Edges& edges, Point origin, Sides x, Sides y,
                              Sides z);
 

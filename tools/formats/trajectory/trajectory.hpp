@@ -31,6 +31,8 @@ struct Box {
   double z0 = 0;
   double z1 = 0;
   bool periodic_z = false;
+  double xz = 0,
+         yz = 0;  ///< how far the copy at greater z is shifted in x and y, where those axes are periodic
 };
 
 /// One state of the particles, in canonical form: it does not depend on the order of the file's rows nor on
@@ -66,6 +68,7 @@ class TrajectoryReader {
 /// What of a frame is to be read.
 enum class Wanted {
   all,
+  depth,   ///< z_span alone: the rest may be that of a plane or of a volume
   volume,  ///< all, with z
   box,  ///< and no particles where it does not depend on them: their rows are passed over, whatever they hold
   box_of_volume  ///< the same with z
