@@ -1,22 +1,6 @@
 // Exact cells: cut out of the box in private memory.
 
-#define POLYGON_SPACE private
 #include "exact_cells/measure.cl"
-
-#define ROOM 24  // cells of random points have 6 edges in the mean, and one in 10^10 as many as 20
-
-// A work-item cuts the cells of so many sites of a leaf: all of them one after the other, in the same memory,
-// with one search of the leaves around; or one, where a device needs many items.
-kernel __attribute__((vec_type_hint(float8))) void cut_cells(SITE_PARAMETERS, MEASURE_PARAMETERS, uint of_item) {
-  const uint first = (uint)get_global_id(0) * of_item;
-  if (first >= count) return;
-  const tree_t tree = SITE_ARGUMENTS;
-  near_t near;
-  find_near(&near, &tree, first >> FAN_BITS);
-  double memory[POLYGON_MEMORY(ROOM)];
-  for (uint site = first; site < min(first + of_item, count); ++site)
-    measure_cell(&tree, &near, MEASURE_ARGUMENTS, site, memory, ROOM);
-}
 
 static inline line_t found_line(const tree_t* tree, uint2 edge, int2 at, uint site) {
   const int image = as_int(edge.s1);

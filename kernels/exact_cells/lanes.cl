@@ -6,6 +6,11 @@
 
 #include "exact_cells/sizes.cl"
 
+#ifndef NUMBER
+#define NUMBER int
+#define NUMBER_4 int4
+#endif
+
 #define FAN_BITS 3
 #define MOST_LEVELS 10       // of boxes, for 2^30 sites
 #define NO_CELL 0xffffffffu  // behind a side of the box
@@ -65,6 +70,38 @@ static inline uint least_of(uint8 numbers) {
 }
 
 static inline uint8 without(uint8 numbers, uint one) { return numbers | as_uint8(numbers == one); }
+
+// --- walks through the tree ---
+
+// By level: the boxes that are still to be looked into. `node` is the one that the walk has come to, at `level`.
+typedef struct {
+  uint8 orders[MOST_LEVELS + 1];
+  uint firsts[MOST_LEVELS + 1];
+  int level;
+  uint node;
+} walk_t;
+
+// Begins with a group at a level, of whose boxes this is the order.
+static inline void begin_walk(walk_t* walk, int level, uint group, uint8 order) {
+  walk->level = level;
+  walk->firsts[level] = group * FAN;
+  walk->orders[level] = order;
+}
+
+// Goes on with the boxes in the one that it has come to.
+static inline void enter(walk_t* walk, uint8 order) { begin_walk(walk, walk->level - 1, walk->node, order); }
+
+// Comes to the next box that is nearer than `end`, the nearest first. False after the last one up to level `top`.
+static inline bool goes_on(walk_t* walk, int top, uint end) {
+  for (; walk->level <= top; ++walk->level) {
+    const uint next = least_of(walk->orders[walk->level]);
+    if (next >= end) continue;
+    walk->orders[walk->level] = without(walk->orders[walk->level], next);
+    walk->node = walk->firsts[walk->level] + (next & (FAN - 1));
+    return true;
+  }
+  return false;
+}
 
 // --- weights ---
 //

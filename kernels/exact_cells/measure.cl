@@ -5,11 +5,12 @@
 
 #define FOUND_EDGE uint2
 
+#include "exact_cells/each_cell.cl"
 #include "exact_cells/found.cl"
 #include "exact_cells/search.cl"
 
 // The edge that begins in the lowest vertex, and of two in the left one.
-static inline int first_edge(const polygon_t* polygon) {
+static inline int first_edge(const cell_t* polygon) {
   int lowest = 0;
   for (int k = 1; k < polygon->size; ++k) {
     const double y = polygon->y[k], least = polygon->y[lowest];
@@ -20,17 +21,16 @@ static inline int first_edge(const polygon_t* polygon) {
 
 // Sums are taken in half steps from the site, or with weights, which may put a cell far from its site, from a
 // vertex: where they lose least.
-static inline void measure_cell(const tree_t* tree, const near_t* near, MEASURE_PARAMETERS, uint site,
-                                POLYGON_SPACE double* memory, int room) {
+static inline void measure_cell(cell_t* polygon, const tree_t* tree, const near_t* near, MEASURE_PARAMETERS,
+                                uint site) {
   const int2 at = site_at(tree, site);
-  polygon_t polygon = polygon_in(memory, room);
-  begin_polygon(&polygon, tree, at, site);
-  cut_by_all(&polygon, tree, near, site, at);
-  if (polygon.is_full) {
+  begin_polygon(polygon, tree, at, site);
+  cut_by_all(polygon, tree, near, site, at);
+  if (polygon->is_full) {
     queue[atomic_inc(counters + 1)] = site;
     return;
   }
-  const uint id = ids[site], edge_count = (uint)polygon.size;
+  const uint id = ids[site], edge_count = (uint)polygon->size;
   const uint begin = atomic_add(counters, edge_count);
   begins[site] = begin;
   edge_counts[id] = edge_count;
@@ -38,21 +38,21 @@ static inline void measure_cell(const tree_t* tree, const near_t* near, MEASURE_
   uint touching = 0;
   double area = 0, perimeter = 0;
   double2 moment = 0;
-  int k = first_edge(&polygon);
-  const int before = (k > 0 ? k : polygon.size) - 1;
-  double2 from = (double2)(polygon.x[before], polygon.y[before]);
+  int k = first_edge(polygon);
+  const int before = (k > 0 ? k : polygon->size) - 1;
+  double2 from = (double2)(polygon->x[before], polygon->y[before]);
   const double2 base = tree->lags != 0 ? from : 0;
   from -= base;
   for (uint i = 0; i < edge_count; ++i) {
-    const double2 to = (double2)(polygon.x[k], polygon.y[k]) - base, way = to - from;
+    const double2 to = (double2)(polygon->x[k], polygon->y[k]) - base, way = to - from;
     const double part = from.s0 * to.s1 - to.s0 * from.s1;
     area += part;
     moment += part * (from + to);
     perimeter += sqrt(way.s0 * way.s0 + way.s1 * way.s1);
-    touching += polygon.cell[k] == NO_CELL ? 1u : 0u;
-    found[begin + i] = (uint2)(polygon.cell[k], as_uint(polygon.image[k]));
+    touching += polygon->cell[k] == NO_CELL ? 1u : 0u;
+    found[begin + i] = (uint2)(polygon->cell[k], as_uint(polygon->image[k]));
     from = to;
-    k = k + 1 < polygon.size ? k + 1 : 0;
+    k = k + 1 < polygon->size ? k + 1 : 0;
   }
   neighbours[id] = edge_count - touching;
   flags[id] = (uchar)((touching > 0 ? TOUCHES_BORDER : 0u) | CERTIFIED);
@@ -60,5 +60,7 @@ static inline void measure_cell(const tree_t* tree, const near_t* near, MEASURE_
   perimeters[id] = perimeter / 2 * step;
   vstore2(origin.xy + (convert_double2(at) + (base + moment / (3 * area)) / 2) * step, id, centroids);
 }
+
+CELL_KERNEL(cut, MEASURE_PARAMETERS) { EACH_CELL(measure_cell(&cell, &tree, &near, MEASURE_ARGUMENTS, site)) }
 
 #endif

@@ -20,21 +20,24 @@
 #ifndef VOROCL_EXACT_CELLS_POLYGON
 #define VOROCL_EXACT_CELLS_POLYGON
 
-#define NUMBER int
-#define NUMBER_4 int4
-
 #include "exact_cells/lanes.cl"
 #include "exact_cells/wide.cl"
 
 // Where polygons lie: private for the many, global for those with more edges than that has room for.
-#ifndef POLYGON_SPACE
+#ifdef LARGE_CELLS
+#define POLYGON_SPACE global
+#else
 #define POLYGON_SPACE private
+#define ROOM 24  // cells of random points have 6 edges in the mean, and one in 10^10 as many as 20
+#define PRIVATE_CELL(cell)                                    \
+  double memory[POLYGON_BYTES(ROOM) / sizeof(double)];        \
+  cell_t cell;                                                \
+  place_cell(&cell, (private uchar*)memory, ROOM);
 #endif
+#define CELL_VECTOR float8
+#define CELL_BYTES POLYGON_BYTES
 
 #define LANES 8  // vertices that a line is tried against at once
-
-// Lists of a polygon with room for so many edges, a multiple of LANES, take so many doubles.
-#define POLYGON_MEMORY(room) (7 * ((room) + LANES))
 
 // A line a x + b y = c, with the site behind it. `image` says which of its images, or which side of the box this is.
 typedef struct {
@@ -61,31 +64,29 @@ typedef struct {
   double lag;      // of the site
   float reach;     // the largest; 0 if nothing is left to be cut
   bool is_full;
-} polygon_t;
+} cell_t;
 
-static inline polygon_t polygon_in(POLYGON_SPACE double* memory, int room) {
+static inline void place_cell(cell_t* polygon, POLYGON_SPACE uchar* memory, int room) {
   const int length = room + LANES;
-  polygon_t polygon;
-  polygon.x = memory;
-  polygon.y = memory + length;
-  polygon.c = (POLYGON_SPACE long*)(memory + 2 * length);
-  polygon.rough_x = (POLYGON_SPACE float*)(memory + 3 * length);
-  polygon.rough_y = polygon.rough_x + length;
-  polygon.reaches = polygon.rough_x + 2 * length;
-  polygon.a = (POLYGON_SPACE int*)(memory + 5 * length);
-  polygon.b = polygon.a + length;
-  polygon.cell = (POLYGON_SPACE uint*)(memory + 6 * length);
-  polygon.image = polygon.a + 3 * length;
-  polygon.room = room;
-  return polygon;
+  polygon->x = (POLYGON_SPACE double*)memory;
+  polygon->y = polygon->x + length;
+  polygon->c = (POLYGON_SPACE long*)(polygon->x + 2 * length);
+  polygon->rough_x = (POLYGON_SPACE float*)(polygon->x + 3 * length);
+  polygon->rough_y = polygon->rough_x + length;
+  polygon->reaches = polygon->rough_x + 2 * length;
+  polygon->a = (POLYGON_SPACE int*)(polygon->x + 5 * length);
+  polygon->b = polygon->a + length;
+  polygon->cell = (POLYGON_SPACE uint*)(polygon->x + 6 * length);
+  polygon->image = polygon->a + 3 * length;
+  polygon->room = room;
 }
 
-static inline line_t line_of(const polygon_t* polygon, int k) {
+static inline line_t line_of(const cell_t* polygon, int k) {
   const line_t line = {polygon->c[k], polygon->a[k], polygon->b[k], polygon->cell[k], polygon->image[k]};
   return line;
 }
 
-static inline void set_line(polygon_t* polygon, int k, line_t line) {
+static inline void set_line(cell_t* polygon, int k, line_t line) {
   polygon->c[k] = line.c;
   polygon->a[k] = line.a;
   polygon->b[k] = line.b;
@@ -129,7 +130,7 @@ static inline double4 crossings(line_t before, line_t line, line_t after) {
 #define ROUGH_MARGIN 1.00001f  // floats make an error of less than a millionth in a squared distance
 
 // Returns its squared distance, with the margin.
-static inline float set_vertex(polygon_t* polygon, int k, double2 vertex) {
+static inline float set_vertex(cell_t* polygon, int k, double2 vertex) {
   const float rough_x = convert_float(vertex.s0) * 0.5f, rough_y = convert_float(vertex.s1) * 0.5f;
   polygon->x[k] = vertex.s0;
   polygon->y[k] = vertex.s1;
@@ -147,7 +148,7 @@ static inline float greatest_of(float8 numbers) {
 }
 
 // On which side of a line a vertex is, in whole numbers: 1 is beyond it, 0 on it.
-static inline int exact_side(const polygon_t* polygon, int k, line_t line) {
+static inline int exact_side(const cell_t* polygon, int k, line_t line) {
   const line_t p = line_of(polygon, k), q = line_of(polygon, k + 1 < polygon->size ? k + 1 : 0);
   return -sign_of(
       sum(sum(product(p.c, cross_of(q, line)), product(q.c, cross_of(line, p))), product(line.c, cross_of(p, q))));
@@ -163,7 +164,7 @@ static inline int bits_of_longs(long8 lanes) {
 static inline int highest_bit(int bits) { return 31 - (int)clz(bits); }
 
 // Which of the vertices from k on, as bits, are beyond a line (s0), and which are beyond or on it (s1).
-static inline int2 beyond(const polygon_t* polygon, int k, line_t line) {
+static inline int2 beyond(const cell_t* polygon, int k, line_t line) {
   const double8 ax = convert_double(line.a) * vload8(0, polygon->x + k);
   const double8 by = convert_double(line.b) * vload8(0, polygon->y + k);
   const double c = convert_double(line.c);
@@ -179,7 +180,7 @@ static inline int2 beyond(const polygon_t* polygon, int k, line_t line) {
 }
 
 // Moves the edges from `from` on, and what is behind them.
-static inline void move_edges(polygon_t* polygon, int from, int to, int count) {
+static inline void move_edges(cell_t* polygon, int from, int to, int count) {
   const int last = (count - 1) & ~(LANES - 1), step = to < from ? LANES : -LANES;
   for (int k = to < from ? 0 : last; k >= 0 && k <= last; k += step) {
     const int source = from + k, goal = to + k;
@@ -198,7 +199,7 @@ static inline void move_edges(polygon_t* polygon, int from, int to, int count) {
 
 // Sets how many edges there are. Behind the last one come vertices that are the site itself, as far as
 // vectors reach.
-static inline void end_edges(polygon_t* polygon, int size) {
+static inline void end_edges(cell_t* polygon, int size) {
   polygon->size = size;
   vstore8((double8)0, 0, polygon->x + size);
   vstore8((double8)0, 0, polygon->y + size);
@@ -206,7 +207,7 @@ static inline void end_edges(polygon_t* polygon, int size) {
 }
 
 // Weights may put bisectors of several sites on one line. What lies behind it is the farthest one's.
-static inline void take_edge(polygon_t* polygon, line_t line) {
+static inline void take_edge(cell_t* polygon, line_t line) {
   for (int k = 0; k < polygon->size; ++k) {
     const line_t edge = line_of(polygon, k);
     const bool is_longer = abs(line.a) > abs(edge.a) || abs(line.b) > abs(edge.b);
@@ -219,7 +220,7 @@ static inline void take_edge(polygon_t* polygon, line_t line) {
 }
 
 // Cuts off what lies beyond a line.
-static inline void cut(polygon_t* polygon, line_t line) {
+static inline void cut(cell_t* polygon, line_t line) {
   const int size = polygon->size;
   float8 reaches = 0;  // of the vertices that are kept
   int is_cut = 0, on = 0, first_gone = size, last_gone = -1, first_kept = size, last_kept = -1;

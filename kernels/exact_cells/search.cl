@@ -40,7 +40,7 @@ static inline line_t first_line(long4 sides, int k) {
   return line;
 }
 
-static inline void begin_polygon(polygon_t* polygon, const tree_t* tree, int2 at, uint site) {
+static inline void begin_polygon(cell_t* polygon, const tree_t* tree, int2 at, uint site) {
   const long4 sides = first_sides(tree, convert_long2(at));
   const double4 ends = convert_double4(sides);
   polygon->lag = lag_of(tree->lags, site);
@@ -55,7 +55,7 @@ static inline void begin_polygon(polygon_t* polygon, const tree_t* tree, int2 at
 // --- boxes and sites, eight at a time ---
 
 // Behind which nothing can cut.
-static inline uint end_of(const polygon_t* polygon) { return as_uint(4 * polygon->reach); }
+static inline uint end_of(const cell_t* polygon) { return as_uint(4 * polygon->reach); }
 
 // The squared distances of bisectors with sites or boxes at these squared distances.
 static inline float8 bisectors_of(const tree_t* tree, float8 distances, float8 leads) {
@@ -64,7 +64,7 @@ static inline float8 bisectors_of(const tree_t* tree, float8 distances, float8 l
 
 // Cuts the cell by the sites of a leaf, the nearest first. `from` is the cell's site as the image of the tree
 // sees it.
-static inline void cut_by_leaf(polygon_t* polygon, const tree_t* tree, uint leaf, int2 from, int image) {
+static inline void cut_by_leaf(cell_t* polygon, const tree_t* tree, uint leaf, int2 from, int image) {
   const float8 x = convert_float8(vload8(2 * (size_t)leaf, tree->sites) - from.s0);
   const float8 y = convert_float8(vload8(2 * (size_t)leaf + 1, tree->sites) - from.s1);
   const float8 distances = x * x + y * y, leads = leads_of(tree->lags, leaf, polygon->lag);
@@ -96,7 +96,7 @@ static inline boxes_t boxes_of_group(const tree_t* tree, int level, uint group) 
 }
 
 // Which of eight boxes, of those that count, may hold sites that cut.
-static inline uint8 order_of_boxes(const polygon_t* polygon, const tree_t* tree, boxes_t boxes, float8 leads,
+static inline uint8 order_of_boxes(const cell_t* polygon, const tree_t* tree, boxes_t boxes, float8 leads,
                                    int8 that_count, int2 from) {
   const float8 left = convert_float8(boxes.left - from.s0), right = convert_float8(boxes.right - from.s0),
                lower = convert_float8(boxes.lower - from.s1), upper = convert_float8(boxes.upper - from.s1);
@@ -114,7 +114,7 @@ static inline uint8 order_of_boxes(const polygon_t* polygon, const tree_t* tree,
 }
 
 // The boxes of a group without `own`.
-static inline uint8 order_of_group(const polygon_t* polygon, const tree_t* tree, int level, uint group, uint own,
+static inline uint8 order_of_group(const cell_t* polygon, const tree_t* tree, int level, uint group, uint own,
                                    int2 from) {
   const int8 is_other = (int8)(0, 1, 2, 3, 4, 5, 6, 7) != (int)(own - group * FAN);
   const int8 that_count = are_there(tree->count, level, group) & is_other;
@@ -123,27 +123,15 @@ static inline uint8 order_of_group(const polygon_t* polygon, const tree_t* tree,
 }
 
 // Cuts a cell by the sites in a group's boxes, the nearest box first, but not by those in the box `own`.
-static inline void cut_by_group(polygon_t* polygon, const tree_t* tree, int top, uint group, uint own, int2 from,
+static inline void cut_by_group(cell_t* polygon, const tree_t* tree, int top, uint group, uint own, int2 from,
                                 int image) {
-  uint8 orders[MOST_LEVELS + 1];  // by level: the boxes that are still to be looked into
-  uint firsts[MOST_LEVELS + 1];
-  int level = top;
-  firsts[level] = group * FAN;
-  orders[level] = order_of_group(polygon, tree, level, group, own, from);
-  while (level <= top) {
-    const uint next = least_of(orders[level]);
-    if (next >= end_of(polygon)) {
-      ++level;
-      continue;
-    }
-    orders[level] = without(orders[level], next);
-    const uint node = firsts[level] + (next & (FAN - 1));
-    if (level == 1) {
-      cut_by_leaf(polygon, tree, node, from, image);
+  walk_t walk;
+  begin_walk(&walk, top, group, order_of_group(polygon, tree, top, group, own, from));
+  while (goes_on(&walk, top, end_of(polygon))) {
+    if (walk.level == 1) {
+      cut_by_leaf(polygon, tree, walk.node, from, image);
     } else {
-      --level;
-      firsts[level] = node * FAN;
-      orders[level] = order_of_group(polygon, tree, level, node, FAR, from);
+      enter(&walk, order_of_group(polygon, tree, walk.level - 1, walk.node, FAR, from));
     }
   }
 }
@@ -162,9 +150,9 @@ typedef struct {
   float distance;  // squared, within which there are no bisectors with others; 0 if there are too many leaves
 } near_t;
 
-// Which boxes of a group, as bits, are within a squared distance of a box, of which the left, right, lower
-// and upper sides are given. `least` is that of bisectors of the others with sites of this lag.
-static inline int boxes_within(const tree_t* tree, int level, uint group, int4 box, float distance, double lag,
+// Which boxes of a group are within a squared distance of a box, of which the left, right, lower and upper sides are
+// given. `least` is that of bisectors of the others with sites of this lag.
+static inline uint8 boxes_within(const tree_t* tree, int level, uint group, int4 box, float distance, double lag,
                                float* least) {
   const boxes_t boxes = boxes_of_group(tree, level, group);
   const float8 away_x = max(convert_float8(max(boxes.left - box.s1, box.s0 - boxes.right)), 0.0f);
@@ -176,7 +164,7 @@ static inline int boxes_within(const tree_t* tree, int level, uint group, int4 b
     const float8 others = select((float8)INFINITY, bisectors_at(distances, leads), there & ~within);
     *least = fmin(*least, least_of_floats(others));
   }
-  return bits_of_ints(within);
+  return order_of(0, within);
 }
 
 static inline int4 box_of_leaf(const tree_t* tree, uint leaf) {
@@ -190,40 +178,32 @@ static inline void find_near(near_t* near, const tree_t* tree, uint own) {
   const double lag = most_lag(tree->lags, own, tree->count);
   near->count = 0;
   near->distance = distance;
-  int within[MOST_LEVELS + 1];  // by level: the boxes that are still to be looked into
-  uint firsts[MOST_LEVELS + 1];
-  int level = tree->top;
-  firsts[level] = 0;
-  within[level] = boxes_within(tree, level, 0, box, distance, lag, &near->distance);
-  while (level <= tree->top) {
-    if (within[level] == 0) {
-      ++level;
+  walk_t walk;
+  begin_walk(&walk, tree->top, 0, boxes_within(tree, tree->top, 0, box, distance, lag, &near->distance));
+  while (goes_on(&walk, tree->top, FAR)) {
+    if (walk.level > 1) {
+      enter(&walk, boxes_within(tree, walk.level - 1, walk.node, box, distance, lag, &near->distance));
       continue;
     }
-    const uint node = firsts[level] + (uint)lowest_bit(within[level]);
-    within[level] &= within[level] - 1;
-    if (level > 1) {
-      --level;
-      firsts[level] = node * FAN;
-      within[level] = boxes_within(tree, level, node, box, distance, lag, &near->distance);
-    } else if (node != own && near->count < MOST_NEAR) {
-      const uint k = near->count++;
-      const int4 found = box_of_leaf(tree, node);
-      near->left[k] = found.s0;
-      near->right[k] = found.s1;
-      near->lower[k] = found.s2;
-      near->upper[k] = found.s3;
-      near->lags[k] = tree->lags != 0 ? tree->box_lags[(size_t)tree->levels[1] * FAN + node] : 0;
-      near->leaves[k] = node;
-    } else if (node != own) {
+    if (walk.node == own) continue;
+    const uint k = near->count++;
+    if (k == MOST_NEAR) {
+      near->count = MOST_NEAR;
       near->distance = 0;
       return;
     }
+    const int4 found = box_of_leaf(tree, walk.node);
+    near->left[k] = found.s0;
+    near->right[k] = found.s1;
+    near->lower[k] = found.s2;
+    near->upper[k] = found.s3;
+    near->lags[k] = tree->lags != 0 ? tree->box_lags[(size_t)tree->levels[1] * FAN + walk.node] : 0;
+    near->leaves[k] = walk.node;
   }
 }
 
 // Cuts a cell by the sites of these leaves, the nearest leaf first.
-static inline void cut_by_near(polygon_t* polygon, const tree_t* tree, const near_t* near, int2 at) {
+static inline void cut_by_near(cell_t* polygon, const tree_t* tree, const near_t* near, int2 at) {
   uint8 orders[MOST_NEAR / FAN];
   for (uint first = 0; first < near->count; first += FAN) {
     const boxes_t boxes = {vload8(0, near->left + first), vload8(0, near->right + first),
@@ -246,7 +226,7 @@ static inline void cut_by_near(polygon_t* polygon, const tree_t* tree, const nea
 
 // Cuts a cell by all sites, and their images across the ends of periods: first by those of its own leaf and
 // of the leaves near it, then, if it reaches farther, by those that are next to its own in the tree.
-static inline void cut_by_all(polygon_t* polygon, const tree_t* tree, const near_t* near, uint site, int2 at) {
+static inline void cut_by_all(cell_t* polygon, const tree_t* tree, const near_t* near, uint site, int2 at) {
   cut_by_leaf(polygon, tree, site >> FAN_BITS, at, 0);
   cut_by_near(polygon, tree, near, at);
   for (int level = 1; level <= tree->top && 4 * polygon->reach > near->distance; ++level) {

@@ -40,7 +40,7 @@ constexpr Kind plane_kind = {
     2,
     sizeof(cl_uint2),
     [](std::size_t sites) { return 6 * sites + 24; },
-    [](std::size_t room) { return 7 * (room + 8) * sizeof(cl_double); },  // POLYGON_MEMORY of polygon.cl
+    [](std::size_t room) { return POLYGON_BYTES(room); },
 };
 
 /// Cells of random points have 15.5 faces in the mean.
@@ -50,7 +50,7 @@ constexpr Kind volume_kind = {
     3,
     sizeof(cl_uint4),
     [](std::size_t sites) { return 18 * sites + 4096; },
-    [](std::size_t room) { return CELL_BYTES(room); },
+    [](std::size_t room) { return POLYHEDRON_BYTES(room); },
 };
 
 void require_doubles(const Device& device) {

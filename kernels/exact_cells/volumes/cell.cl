@@ -5,6 +5,9 @@
 
 #define NUMBER double
 #define NUMBER_4 double4
+#define CELL_VECTOR double8
+#define CELL_BYTES POLYHEDRON_BYTES
+#define PRIVATE_CELL(cell) cell_t cell;
 
 #include "exact_cells/lanes.cl"
 #include "exact_cells/wide.cl"
@@ -29,7 +32,7 @@ typedef uchar4 indices_t;
 #define WORDS (ROOM / 64)
 #define ONE_WORD (sizeof(index_t) == 1)  // as the compiler knows
 
-// The lists of a cell, CELL_BYTES of sizes.cl in all: planes (n and c), with the site behind each and its
+// The lists of a cell, POLYHEDRON_BYTES of sizes.cl in all: planes (n and c), with the site behind each and its
 // image; the planes p0, p1, p2 of each vertex, and the vertices at the other ends of the edges between p0 and
 // p1, p1 and p2, p2 and p0; the vertices, in half steps, and how wrong they may be. Then scratch: of the ring
 // that is cut, its edges between planes, the vertices they go to and the places of the new ones; the new

@@ -2,29 +2,6 @@
 
 #include "exact_cells/volumes/measure.cl"
 
-// As cut_cells() of the cells of planes.
-kernel __attribute__((vec_type_hint(double8))) void cut_cells(SITE_PARAMETERS, MEASURE_PARAMETERS, uint of_item) {
-  const uint first = (uint)get_global_id(0) * of_item;
-  if (first >= count) return;
-  const tree_t tree = SITE_ARGUMENTS;
-  near_t near;
-  find_near(&near, &tree, first >> FAN_BITS);
-  cell_t cell;
-  for (uint site = first; site < min(first + of_item, count); ++site)
-    measure_cell(&cell, &tree, &near, MEASURE_ARGUMENTS, site);
-}
-
-kernel __attribute__((vec_type_hint(double8))) void outline_cells(SITE_PARAMETERS, OUTLINE_PARAMETERS, uint of_item) {
-  const uint first = (uint)get_global_id(0) * of_item;
-  if (first >= count) return;
-  const tree_t tree = SITE_ARGUMENTS;
-  near_t near;
-  find_near(&near, &tree, first >> FAN_BITS);
-  cell_t cell;
-  for (uint site = first; site < min(first + of_item, count); ++site)
-    outline_cell(&cell, &tree, &near, OUTLINE_ARGUMENTS, site);
-}
-
 // Puts the faces of each cell where they belong, by the caller's ids.
 kernel void place_faces(uint count, global const uint* restrict ids, global const uint* restrict begins,
                         global const uint4* restrict found, global const uint* restrict offsets,

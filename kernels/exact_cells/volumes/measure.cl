@@ -5,6 +5,7 @@
 
 #define FOUND_EDGE uint4
 
+#include "exact_cells/each_cell.cl"
 #include "exact_cells/found.cl"
 #include "exact_cells/volumes/search.cl"
 
@@ -205,5 +206,9 @@ static inline void outline_cell(cell_t* cell, const tree_t* tree, const near_t* 
     corner_counts[face++] = (uint)(corner - first);
   }
 }
+
+CELL_KERNEL(cut, MEASURE_PARAMETERS) { EACH_CELL(measure_cell(&cell, &tree, &near, MEASURE_ARGUMENTS, site)) }
+
+CELL_KERNEL(outline, OUTLINE_PARAMETERS) { EACH_CELL(outline_cell(&cell, &tree, &near, OUTLINE_ARGUMENTS, site)) }
 
 #endif

@@ -59,6 +59,11 @@ static inline uint8 order_of_boxes(const cell_t* cell, boxes_t boxes, float end)
   return order_of(distances, may_cut & is_near);
 }
 
+static inline uint8 order_of_group(const cell_t* cell, const tree_t* tree, int level, uint group, double3 from,
+                                   float end) {
+  return order_of_boxes(cell, boxes_of_group(tree, level, group, from, cell->lag), end);
+}
+
 // --- what the cells of a leaf share ---
 
 #define MOST_NEAR 112  // of uniform points there are some 76
@@ -95,6 +100,18 @@ static inline void add_leaf(near_t* near, const tree_t* tree, uint leaf, int ima
   vstore8(convert_float8(z), (size_t)k, near->z);
 }
 
+// Which boxes of a group are as near as is listed. The others are not.
+static inline uint8 boxes_near(near_t* near, const tree_t* tree, int level, uint group, double3 from) {
+  const boxes_t boxes = boxes_of_group(tree, level, group, from, near->lag);
+  const float8 distances = distances_of(boxes, near->low, near->high);
+  const int8 is_near = distances <= near->distance * near->distance;
+  if (tree->lags != 0) {
+    const float8 others = select(bisectors_at(distances, boxes.leads), (float8)INFINITY, is_near);
+    near->least = fmin(near->least, least_of_floats(others));
+  }
+  return order_of(0, is_near);
+}
+
 // False if there are too many.
 static inline bool list_near(near_t* near, const tree_t* tree, float distance) {
   near->count = 0;
@@ -102,33 +119,15 @@ static inline bool list_near(near_t* near, const tree_t* tree, float distance) {
   near->least = INFINITY;
   for (int image = 0; image < tree->images; ++image) {
     const double3 from = near->base - shift_of(tree, image);
-    int within[MOST_LEVELS + 1];  // by level: the boxes that are still to be looked into
-    uint firsts[MOST_LEVELS + 1];
-    uint group = 0;
-    for (int level = tree->top, is_new = 1; level <= tree->top;) {
-      if (is_new != 0) {
-        firsts[level] = group * FAN;
-        const boxes_t boxes = boxes_of_group(tree, level, group, from, near->lag);
-        const float8 distances = distances_of(boxes, near->low, near->high);
-        const int8 is_near = distances <= distance * distance;
-        within[level] = bits_of_ints(is_near);
-        if (tree->lags != 0) {
-          const float8 others = select(bisectors_at(distances, boxes.leads), (float8)INFINITY, is_near);
-          near->least = fmin(near->least, least_of_floats(others));
-        }
-      }
-      is_new = within[level] != 0 && level > 1;
-      if (within[level] == 0) {
-        ++level;
-        continue;
-      }
-      group = firsts[level] + (uint)lowest_bit(within[level]);
-      within[level] &= within[level] - 1;
-      if (is_new != 0) {
-        --level;
+    walk_t walk;
+    begin_walk(&walk, tree->top, 0, boxes_near(near, tree, tree->top, 0, from));
+    while (goes_on(&walk, tree->top, FAR)) {
+      if (walk.level > 1) {
+        enter(&walk, boxes_near(near, tree, walk.level - 1, walk.node, from));
+      } else if (near->count < MOST_NEAR) {
+        add_leaf(near, tree, walk.node, image, from);
       } else {
-        if (near->count == MOST_NEAR) return false;
-        add_leaf(near, tree, group, image, from);
+        return false;
       }
     }
   }
@@ -255,25 +254,13 @@ static inline float cut_by_leaf(cell_t* cell, const tree_t* tree, uint leaf, dou
 static inline void cut_by_tree(cell_t* cell, const tree_t* tree, const near_t* near, double3 at, uint site, float end) {
   for (int image = 0; image < tree->images; ++image) {
     const double3 from = at - shift_of(tree, image);
-    uint8 orders[MOST_LEVELS + 1];  // by level: the boxes that are still to be looked into
-    uint firsts[MOST_LEVELS + 1];
-    int level = tree->top;
-    firsts[level] = 0;
-    orders[level] = order_of_boxes(cell, boxes_of_group(tree, level, 0, from, cell->lag), end);
-    while (level <= tree->top) {
-      const uint next = least_of(orders[level]);
-      if (next >= as_uint(end)) {
-        ++level;
-        continue;
-      }
-      orders[level] = without(orders[level], next);
-      const uint node = firsts[level] + (next & (FAN - 1));
-      if (level > 1) {
-        --level;
-        firsts[level] = node * FAN;
-        orders[level] = order_of_boxes(cell, boxes_of_group(tree, level, node, from, cell->lag), end);
-      } else if (!is_listed(near, node, image)) {
-        end = cut_by_leaf(cell, tree, node, from, site, image, end);
+    walk_t walk;
+    begin_walk(&walk, tree->top, 0, order_of_group(cell, tree, tree->top, 0, from, end));
+    while (goes_on(&walk, tree->top, as_uint(end))) {
+      if (walk.level > 1) {
+        enter(&walk, order_of_group(cell, tree, walk.level - 1, walk.node, from, end));
+      } else if (!is_listed(near, walk.node, image)) {
+        end = cut_by_leaf(cell, tree, walk.node, from, site, image, end);
       }
     }
   }

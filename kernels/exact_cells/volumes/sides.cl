@@ -25,6 +25,11 @@ static inline wide_t negative(wide_t a) {
   return wide;
 }
 
+static inline wide_t widened(long a) {
+  const wide_t wide = {(ulong)a, a < 0 ? -1 : 0};
+  return wide;
+}
+
 static inline wide_t times(wide_t a, long b) {
   const ulong low = (ulong)b, high = b < 0 ? ~0UL : 0;
   const wide_t wide = {a.low * low, (long)(upper_half(a.low, low) + a.low * high + (ulong)a.high * low)};
@@ -133,10 +138,13 @@ static inline wide_t constant_of(const cell_t* cell, way_t n, double c, uint sit
 
 // Of four planes in whole numbers: for each the determinant of the three others, with a sign, and the sign of
 // the sum of these times c. `sites` are behind them.
-static inline int wide_side(const cell_t* cell, const way_t* n, const double* c, const uint* sites,
-                            wide_t* determinants) {
+static inline int wide_side(const cell_t* cell, const double4* planes, const uint* sites, wide_t* determinants) {
   wide_t constants[4];
-  for (int k = 0; k < 4; ++k) constants[k] = constant_of(cell, n[k], c[k], sites[k]);
+  way_t n[4];
+  for (int k = 0; k < 4; ++k) {
+    n[k] = way_of(planes[k]);
+    constants[k] = constant_of(cell, n[k], planes[k].w, sites[k]);
+  }
   for (int k = 0; k < 3; ++k) {
     const way_t q = n[k == 2 ? 0 : k + 1], r = n[k == 0 ? 2 : k - 1];
     const wide_t x = minor_of(q.y, q.z, r.y, r.z), y = minor_of(q.z, q.x, r.z, r.x), z = minor_of(q.x, q.y, r.x, r.y);
@@ -146,47 +154,44 @@ static inline int wide_side(const cell_t* cell, const way_t* n, const double* c,
   return sign_of_sum(constants, determinants);
 }
 
-// As wide_side(), of numbers of 11 bits but for a common power of two, as those of lattices are: then all
-// takes 62 bits. False if they are longer. (All bisectors, and all c, may be divided by one power of two: no
-// sign changes.)
-static inline bool narrow_side(const cell_t* cell, way_t* n, const double* c, const uint* sites, wide_t* determinants,
+// As wide_side(), of numbers of 11 bits but for a common power of two, as those of lattices are: then determinants
+// are doubles, and all takes 62 bits. False if they are longer. (All bisectors, and all c, may be divided by one power
+// of two: no sign changes.)
+static inline bool narrow_side(const cell_t* cell, const double4* p, const uint* sites, wide_t* determinants,
                                int* side) {
-  ulong bits = 0;
-  for (int k = 0; k < 4; ++k) {
-    if (sites[k] != NO_CELL)
-      bits |= abs(n[k].x) | abs(n[k].y) | abs(n[k].z);
-    else
-      bits |= (ulong)fabs(c[k]);
-  }
+  double4 x = (double4)(p[0].x, p[1].x, p[2].x, p[3].x), y = (double4)(p[0].y, p[1].y, p[2].y, p[3].y),
+          z = (double4)(p[0].z, p[1].z, p[2].z, p[3].z);
+  const double4 c = (double4)(p[0].w, p[1].w, p[2].w, p[3].w);
+  const long4 is_wall = convert_long4(vload4(0, sites) == NO_CELL);
+  const double4 none = 0;
+  const ulong4 of_all = convert_ulong4(fabs(select(x, c, is_wall))) | convert_ulong4(fabs(select(y, none, is_wall))) |
+                        convert_ulong4(fabs(select(z, none, is_wall)));
+  const ulong bits = of_all.s0 | of_all.s1 | of_all.s2 | of_all.s3;
   const int shift = lowest_of(bits);
   if (bits >> shift >= 1UL << 11) return false;
-  long constants[4], found[4], total = 0;
-  way_t ways[4];
-  for (int k = 0; k < 4; ++k) {
-    ways[k] = n[k];
-    if (sites[k] == NO_CELL) {
-      constants[k] = (long)c[k] >> shift;
-      continue;
-    }
-    const double lag = lag_of(cell->lags, sites[k]), more = lag - cell->lag;
-    const double shifted = ldexp(more, -2 * shift);
+  const double unit = as_double((ulong)(1023 - shift) << 52);  // 2^-shift
+  const double4 units = select((double4)(unit), (double4)(1), is_wall);
+  x *= units;
+  y *= units;
+  z *= units;
+  double4 constants = select(x * x + y * y + z * z, c * unit, is_wall);
+  for (int k = 0; k < 4 && cell->lags != 0; ++k) {
+    if (sites[k] == NO_CELL) continue;
+    const double lag = cell->lags[sites[k]], more = lag - cell->lag, shifted = more * unit * unit;
     if (more + cell->lag != lag || lag - more != cell->lag || !(fabs(shifted) < 0x1p23) || shifted != trunc(shifted))
       return false;
-    const way_t way = {n[k].x >> shift, n[k].y >> shift, n[k].z >> shift};
-    ways[k] = way;
-    constants[k] = way.x * way.x + way.y * way.y + way.z * way.z + (long)shifted;
+    ((double*)&constants)[k] += shifted;
   }
-  for (int k = 0; k < 4; ++k) n[k] = ways[k];
-  for (int k = 0; k < 3; ++k) {
-    const way_t q = n[k == 2 ? 0 : k + 1], r = n[k == 0 ? 2 : k - 1];
-    const long x = q.y * r.z - q.z * r.y, y = q.z * r.x - q.x * r.z, z = q.x * r.y - q.y * r.x;
-    found[k] = x * n[3].x + y * n[3].y + z * n[3].z;
-    if (k == 0) found[3] = -(x * n[0].x + y * n[0].y + z * n[0].z);
-  }
-  for (int k = 0; k < 4; ++k) {
-    total += found[k] * constants[k];
-    determinants[k] = product(found[k], 1);
-  }
+  const double4 qx = x.s1201, qy = y.s1201, qz = z.s1201, rx = x.s2012, ry = y.s2012, rz = z.s2012;
+  const double4 way_x = (double4)(x.s333, -x.s0), way_y = (double4)(y.s333, -y.s0), way_z = (double4)(z.s333, -z.s0);
+  const double4 minors_x = qy * rz - qz * ry, minors_y = qz * rx - qx * rz, minors_z = qx * ry - qy * rx;
+  const long4 found = convert_long4(minors_x * way_x + minors_y * way_y + minors_z * way_z);
+  const long4 parts = found * convert_long4(constants);
+  const long total = parts.s0 + parts.s1 + parts.s2 + parts.s3;
+  determinants[0] = widened(found.s0);
+  determinants[1] = widened(found.s1);
+  determinants[2] = widened(found.s2);
+  determinants[3] = widened(found.s3);
   *side = (total > 0) - (total < 0);
   return true;
 }
@@ -195,19 +200,12 @@ static inline bool narrow_side(const cell_t* cell, way_t* n, const double* c, co
 // difference.
 static inline int side_of(const cell_t* cell, int v, double4 plane, uint site, bool is_plain) {
   const indices_t t = cell->triples[v];
-  const index_t of[3] = {t.s0, t.s1, t.s2};
-  way_t n[4];
-  uint sites[4];
-  double c[4];
-  for (int k = 0; k < 4; ++k) {
-    sites[k] = k < 3 ? cell->sites[of[k]] : site;
-    const double4 p = whole_plane(k < 3 ? cell->planes[of[k]] : plane, sites[k]);
-    n[k] = way_of(p);
-    c[k] = p.w;
-  }
+  const uint sites[4] = {cell->sites[t.s0], cell->sites[t.s1], cell->sites[t.s2], site};
+  const double4 planes[4] = {whole_plane(cell->planes[t.s0], sites[0]), whole_plane(cell->planes[t.s1], sites[1]),
+                             whole_plane(cell->planes[t.s2], sites[2]), whole_plane(plane, site)};
   wide_t determinants[4];
   int side;
-  if (!narrow_side(cell, n, c, sites, determinants, &side)) side = wide_side(cell, n, c, sites, determinants);
+  if (!narrow_side(cell, planes, sites, determinants, &side)) side = wide_side(cell, planes, sites, determinants);
   if (side != 0 || is_plain) return side;
   for (int of_lags = 0; of_lags < 2 && cell->lags != 0; ++of_lags) {
     wide_t more[4];
@@ -244,7 +242,8 @@ static inline int side_of(const cell_t* cell, int v, double4 plane, uint site, b
   for (int form = 0; form < 6; ++form) {
     wide_t forms[4];
     for (int k = 0; k < 4; ++k) {
-      const long of_way[3] = {n[k].x, n[k].y, n[k].z};
+      const way_t n = way_of(planes[k]);
+      const long of_way[3] = {n.x, n.y, n.z};
       const int first = form % 3, second = form < 3 ? (form + 1) % 3 : first;
       forms[k] = product(sites[k] == NO_CELL ? 0 : of_way[first], of_way[second]);
     }

@@ -1,0 +1,38 @@
+// Kernels that `verb` cells: what PARAMETERS they take besides the sites, and the call for each. It has the `tree`,
+// what is `near`, the memory of the `cell`, and the `site`.
+
+#ifndef VOROCL_EXACT_CELLS_EACH_CELL
+#define VOROCL_EXACT_CELLS_EACH_CELL
+
+#ifdef LARGE_CELLS
+// The cells that had no room in private memory, from a list, each in so many bytes of global memory.
+#define CELL_KERNEL(verb, PARAMETERS)                                                                                 \
+  kernel __attribute__((vec_type_hint(CELL_VECTOR))) void verb##_large_cells(                                         \
+      SITE_PARAMETERS, PARAMETERS, global const uint* restrict large, uint from, uint to,                             \
+      global uchar* restrict memory, int room)
+#define EACH_CELL(call)                                                   \
+  const uint i = (uint)get_global_id(0);                                  \
+  if (i >= to - from) return;                                             \
+  const tree_t tree = SITE_ARGUMENTS;                                     \
+  const uint site = large[from + i];                                      \
+  near_t near;                                                            \
+  find_near(&near, &tree, site >> FAN_BITS);                              \
+  cell_t cell;                                                            \
+  place_cell(&cell, memory + (size_t)i * CELL_BYTES((size_t)room), room); \
+  call;
+#else
+// A work-item cuts the cells of so many sites of a leaf: all of them one after the other, in the same memory,
+// with one search of the leaves around; or one, where a device needs many items.
+#define CELL_KERNEL(verb, PARAMETERS)                                                                   \
+  kernel __attribute__((vec_type_hint(CELL_VECTOR))) void verb##_cells(SITE_PARAMETERS, PARAMETERS, uint of_item)
+#define EACH_CELL(call)                                \
+  const uint first = (uint)get_global_id(0) * of_item; \
+  if (first >= count) return;                          \
+  const tree_t tree = SITE_ARGUMENTS;                  \
+  near_t near;                                         \
+  find_near(&near, &tree, first >> FAN_BITS);          \
+  PRIVATE_CELL(cell)                                   \
+  for (uint site = first; site < min(first + of_item, count); ++site) call;
+#endif
+
+#endif
