@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cmath>
+#include <filesystem>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <numeric>
@@ -208,6 +209,12 @@ BOOST_AUTO_TEST_CASE(frames_of_a_volume_have_the_cells_of_each_frame) {
     BOOST_TEST(content_of(folder / fmt::format("p{}.vtu", frame)) == content_of(folder / "p.vtu"));
   }
   BOOST_TEST(content_of(folder / "all.csv") == expected);
+  const std::string collection = content_of(folder / "p.pvd");
+  for (const char* const entry : {"timestep=\"5\"", "file=\"p0.vtu\"", "timestep=\"15\"", "file=\"p2.vtu\""})
+    BOOST_TEST(collection.find(entry) != std::string::npos, collection);
+  std::filesystem::remove(folder / "p.pvd");
+  succeeds(folder, "simulate --exact --trajectory t.dump --frames 1:2 --polygons p%d.vtu");  // goes on
+  BOOST_TEST(content_of(folder / "p.pvd") == collection);
   const std::string polyhedra = content_of(folder / "p.vtu");
   BOOST_TEST(found_in(polyhedra, "NumberOfCells=\"([^\"]*)\"") == "30");
 }
@@ -244,6 +251,11 @@ BOOST_AUTO_TEST_CASE(weights_and_radii_come_from_a_column) {
            "simulate --exact --trajectory t.dump --periodic xyz --radius radius" + cells + "id,volume");
   BOOST_TEST(content_of(folder / "c.csv") ==
              "frame,timestep,id,volume\n0,0,1,38\n0,0,2,26\n1,0,1,38\n1,0,2,26\n");
+  const std::string small = std::string(with_radius).replace(with_radius.find(" 0.5\n"), 5, " -9\n");
+  folder.file("small.dump", with_radius + small);  // whose column is of weights
+  const json some = json::parse(
+      succeeds(folder, "simulate --exact --trajectory small.dump --weights radius --json" + cells + "id"));
+  BOOST_TEST((some.at("most_empty_cells") == 1 && some.at("uncertified") == 0));
   succeeds(folder, "cells --exact --trajectory t.dump --bounds 0,0,4,4 --radius radius" + cells + "id,area");
   BOOST_TEST(content_of(folder / "c.csv") == "id,area\n1,9.5\n2,6.5\n");
 

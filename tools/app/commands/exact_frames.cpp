@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <limits>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -22,7 +23,7 @@ namespace {
 /// How far a run has come.
 struct ExactCourse {
   int frames = 0;
-  std::size_t uncertified = 0;  // cells
+  std::size_t uncertified = 0, most_empty = 0;  // cells, of all frames and of one
   Samples milliseconds;
   Trouble trouble;
 };
@@ -42,6 +43,7 @@ ExactCourse make_frames(const ExactFramesOptions& options, ExactFrames& frames, 
       const FrameFacts facts = {frame, input->timestep.value_or(frame), ""};
       const auto rows = std::make_shared<ExactCellRows>(seeds, result, std::move(*input), options.seeds);
       course.uncertified += rows->uncertified();
+      course.most_empty = std::max(course.most_empty, rows->empty_cells());
       course.milliseconds.add(report.milliseconds());
       writer.add(facts, writer.wants(frame) ? std::make_shared<Measures>(rows, buffers) : nullptr);
       progress.show(++course.frames, std::nullopt);
@@ -68,12 +70,15 @@ void print_result(const ExactFramesOptions& options, const ExactCourse& course, 
                     {"device", device.name()},
                     {"first_frame", options.frames.first},
                     {"frames", course.frames - 1},
+                    {"most_empty_cells", course.most_empty},
                     {"uncertified", course.uncertified},
                     {"milliseconds", course.milliseconds.mean()}});
     return;
   }
   print("exact cells of frame {} and {} after it in {:.1f} ms each, on {}\n", options.frames.first,
         counted(course.frames - 1, "frame"), course.milliseconds.mean(), device.name());
+  if (course.most_empty > 0)
+    print("up to {} of a frame without a cell\n", counted(course.most_empty, "seed"));
   print_written(requested_files(options.output));
 }
 
@@ -88,6 +93,7 @@ void run_exact_frames(const ExactFramesOptions& options) {
   for (FileRequest& request : output.files) request = of_exact_cells(request, frames.is_volume());
   FrameWriter writer(output);
   while (frames.count() < options.frames.first && frames.skip()) {
+    writer.pass({frames.count() - 1, frames.time(), ""}, nullptr);
     if (interruption.came()) throw Error("interrupted, before the first frame was made");
   }
   std::optional<Input> input = frames.next();

@@ -13,7 +13,9 @@ Option add_file_option(Command& command, FileRequest& request, bool numbered) {
         ", or one table of all frames, with the columns frame and timestep before the others, such as " +
         kind.option.substr(2) + kind.extensions.front();
   }
-  if (numbered && kind.extensions.back() == ".vti") example += "; .vti files are listed in a .pvd file";
+  const std::string last = kind.extensions.back();  // those of VTK
+  if (numbered && (last == ".vti" || last == ".vtu"))
+    example += "; " + last + " files are listed in a .pvd file";
   return command.add(kind.option, request.path, kind.about + example).value_name(numbered ? "FILES" : "FILE");
 }
 

@@ -65,7 +65,7 @@ std::string corners_of(const std::optional<Box>& box, bool is_volume) {
 
 std::string collection_path(const FileRequest& request) {
   const std::string extension = extension_of(request.path);
-  if (extension != ".vti") return {};
+  if (extension != ".vti" && extension != ".vtu" && extension != ".vtp") return {};
   const NumberedName numbered(request.path);
   const fs::path before(numbered.before);
   const std::string stem = before.filename().string();

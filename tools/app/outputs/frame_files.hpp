@@ -16,8 +16,8 @@
 
 namespace vorocl::command {
 
-/// The collection of .vti files of this kind: the pattern without its number, as l.pvd for l_%05d.vti, or the
-/// option's name where nothing is left. Empty for other files. The path is a NumberedName.
+/// The collection of .vti, .vtu or .vtp files of this kind: the pattern without its number, as l.pvd for
+/// l_%05d.vti, or the option's name where nothing is left. Empty for other files. The path is a NumberedName.
 std::string collection_path(const FileRequest& request);
 
 /// Files of one kind. Each numbered file is whole as soon as it is there. A long table has the columns frame

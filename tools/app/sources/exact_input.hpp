@@ -39,6 +39,9 @@ class ExactFrames {
   /// The frames that were read so far.
   int count() const { return reader_.number() + 1; }
 
+  /// The time of the last one: its time step, or its number.
+  std::int64_t time() const { return reader_.frame().timestep.value_or(reader_.number()); }
+
   bool is_volume() const { return is_volume_; }
 
  private:
