@@ -78,7 +78,9 @@ def test_cells_of_tilted_volumes_are_those_of_freud(places, tilt):
     np.testing.assert_allclose(found.cells["volume"], voronoi.volumes, rtol=1e-3)  # freud's are made in floats
     pairs = found.pairs
     there = {(min(a, b), max(a, b)) for a, b in voronoi.nlist[:].tolist()}
-    assert len({(a, b) for a, b in zip(pairs["a"], pairs["b"])} ^ there) <= 4  # faces of a float's rounding
+    assert there <= edges_of(pairs)
+    left_out = [area for a, b, area in zip(pairs["a"], pairs["b"], pairs["area"]) if (a, b) not in there]
+    assert len(left_out) < 60 and max(left_out) < 1e-3  # freud leaves out small faces
     image = np.column_stack([pairs["image_" + axis] for axis in "xyz"])
     ways = places[pairs["b"]] + image @ edges - places[pairs["a"]]
     parts = (pairs["area"] / np.linalg.norm(ways, axis=1))[:, None] * ways
