@@ -3,6 +3,7 @@
 #ifndef VOROCL_MASKS_ROWS
 #define VOROCL_MASKS_ROWS
 
+#include "core/abi.cl"
 #include "masks/sizes.cl"
 
 #define ITEM_KERNEL kernel __attribute__((reqd_work_group_size(1, 1, 1)))
@@ -13,13 +14,6 @@ typedef struct __attribute__((packed)) {
 } any_ushort16;
 #define LOAD_SHORTS(p) (((global const any_ushort16*)(p))->v)
 #define STORE_SHORTS(values, p) (((global any_ushort16*)(p))->v = (values))
-
-// What is read or written soon. (The function of PoCL does nothing; Oclgrind knows no other.)
-#ifdef POCL_DEVICE_ADDRESS_BITS
-#define PREFETCH(address) __builtin_prefetch(address, 0, 2)
-#else
-#define PREFETCH(address) prefetch(address, 1)
-#endif
 
 // any() of PoCL 3.1 takes lane after lane: this takes four instructions.
 INLINE bool some_of(int16 lanes) {

@@ -5,7 +5,6 @@
 
 // The home of a seed that is absent, whose cell has no borders, whatever labels name it.
 #define NO_HOME 0xffffffffu
-#define NO_CELL 0xfffffffeu  // as many there are never
 
 // A CELL while its borders are found has four words: its home, 0, how many pairs have it as the higher id, and its
 // perimeter. What the home adds to it needs no atomics; what others add goes to `neighbours` and `perimeters`.
@@ -44,18 +43,65 @@ __attribute__((always_inline)) static inline void add_border(uint p, uint q, uin
   add_to_cell(b, added == NEW_PAIR, size, home_b == block, CELL_ARGUMENTS);
 }
 
-// Reads what add_border() will need of a row's cells, before it is needed: here no read waits for another one, and
-// afterwards they find it in the cache. Says that it has found what is nowhere, so that no compiler leaves this out.
-static inline bool touch(global const uint* row, block_t block, uint count, global const uint* cells, uint list_size,
-                         global const uint2* lists) {
-  bool found = false;
-  for (int x = block.left; x < block.right; ++x) {
-    const uint label = row[x];
-    if (label >= count || HOME_OF(label) != block.index) continue;
-    global const uint2* const list = lists + (size_t)label * list_size;
-    found |= list[0].s0 == NO_CELL || list[list_size / 2].s0 == NO_CELL;
+// GATHERED: on a CPU, whose work-items are alone in their groups, the borders between two cells come together in local
+// memory first, for a brick of a block's rows. So most of them wait for no other memory; and when the pairs go on from
+// there, it is known which are next, and what they need is on its way. A slot has the number of a pair, or NO_NUMBER.
+#define BRICK 4  // rows and slices
+#if VOROCL_WIDTH > 1
+#define MOST_GATHERED 1536
+#define GATHERED_SLOTS 4096
+#else
+#define MOST_GATHERED 1
+#define GATHERED_SLOTS 1
+#endif
+#define NO_NUMBER 0xffff
+#define PAIRS_AHEAD 16
+typedef struct {
+  local ushort* slots;
+  local uint* pairs;  // three words each
+  uint count;
+} gathered_t;
+
+static inline void begin_gathering(gathered_t* gathered) {
+  gathered->count = 0;
+  if (VOROCL_WIDTH == 1) return;
+  for (uint i = 0; i < GATHERED_SLOTS; ++i) gathered->slots[i] = NO_NUMBER;
+}
+
+static inline void gather(gathered_t* gathered, uint p, uint q, uint size, uint block, CELL_PARAMETERS,
+                          PAIR_PARAMETERS) {
+  if (VOROCL_WIDTH == 1) {
+    add_border(p, q, size, block, CELL_ARGUMENTS, PAIR_ARGUMENTS);
+    return;
   }
-  return found;
+  const uint a = min(p, q), b = max(p, q);
+  for (uint at = (a * 0x9e3779b1u + b * 0x85ebca77u) >> 16;; ++at) {
+    local ushort* const slot = gathered->slots + (at & (GATHERED_SLOTS - 1));
+    const uint number = *slot;
+    local uint* const pair = gathered->pairs + 3 * (number == NO_NUMBER ? gathered->count : number);
+    if (number == NO_NUMBER) {
+      *slot = (ushort)gathered->count++;
+      vstore3((uint3)(a, b, size), 0, pair);
+      return;
+    }
+    if (pair[0] == a && pair[1] == b) {
+      pair[2] += size;
+      return;
+    }
+  }
+}
+
+static inline void add_gathered(gathered_t* gathered, uint block, CELL_PARAMETERS, PAIR_PARAMETERS) {
+  if (VOROCL_WIDTH == 1) return;
+  for (uint i = 0; i < gathered->count; ++i) {
+    const uint3 pair = vload3(i, gathered->pairs);
+    const uint3 next = vload3(min(i + PAIRS_AHEAD, gathered->count - 1), gathered->pairs);
+    PREFETCH(cells + 4 * (size_t)next.s0);
+    PREFETCH(cells + 4 * (size_t)next.s1);
+    PREFETCH(lists + (size_t)next.s0 * list_size + (hash_of(next.s0, next.s1) & (list_size - 1)));
+    add_border(pair.s0, pair.s1, pair.s2, block, CELL_ARGUMENTS, PAIR_ARGUMENTS);
+  }
+  begin_gathering(gathered);
 }
 
 // Adds the borders between a row and one beside it, and along the row those between its own runs if `along` says so.
@@ -63,39 +109,50 @@ static inline bool touch(global const uint* row, block_t block, uint count, glob
 // beside it, that one is the row itself. Across the ends of a periodic axis borders count as inside.
 __attribute__((always_inline)) static inline void add_borders(global const uint* row, global const uint* beside,
                                                               block_t block, int width, bool along, uint count,
-                                                              CELL_PARAMETERS, PAIR_PARAMETERS) {
+                                                              gathered_t* gathered, CELL_PARAMETERS,
+                                                              PAIR_PARAMETERS) {
   walk_t walk = begin_walk(row, beside, block.left, block.right);
   while (next_run(&walk)) {
     const int last = walk.to - 1;
     const uint label = row[last], other = beside[last], length = (uint)(walk.to - walk.from);
     if (label >= count) continue;
     const uint right = along && (PERIODIC_X || walk.to < width) ? row[wrapped(walk.to, width, PERIODIC_X)] : label;
-    if (right < count && right != label) add_border(label, right, 1u, block.index, CELL_ARGUMENTS, PAIR_ARGUMENTS);
-    if (other < count && other != label) add_border(label, other, length, block.index, CELL_ARGUMENTS, PAIR_ARGUMENTS);
+    if (right < count && right != label)
+      gather(gathered, label, right, 1u, block.index, CELL_ARGUMENTS, PAIR_ARGUMENTS);
+    if (other < count && other != label)
+      gather(gathered, label, other, length, block.index, CELL_ARGUMENTS, PAIR_ARGUMENTS);
   }
 }
 
 // `row_behind` has the row that follows the last one along a periodic y, in a volume each slice's.
 kernel void find_borders(global const uint* restrict labels, global const uint* restrict row_behind, uint count,
                          int4 size, int4 bits, CELL_PARAMETERS, PAIR_PARAMETERS) {
+  local ushort slots[GATHERED_SLOTS];
+  local uint pairs[3 * MOST_GATHERED];
+  gathered_t gathered = {slots, pairs, 0};
+  const uint most_of_row = 3u << bits.x;  // pairs that it can add
   block_t block;
   if (!take_block(size, bits, &block)) return;
-  const bool are_small = table_size < list_size;  // the cells
-  FOR_EACH_ROW(y, z, block) {
-    global const uint* const row = row_of(labels, y, z, size);
-    global const uint* const below = y + 1 < size.y ? row + size.x : PERIODIC_Y ? row_of(row_behind, 0, z, size) : row;
-    const int z_behind = wrapped(z + 1, DEPTH(size), PERIODIC_Z);
-    global const uint* const behind = z_behind < DEPTH(size) ? row_of(labels, y, z_behind, size) : row;
-    if (are_small) {
-      // Cells begin in the row that comes last of the three, or in the block's first ones.
-      bool found = touch(DEPTH(size) > 1 ? behind : below, block, count, cells, list_size, lists);
-      if (DEPTH(size) > 1 ? z == block.front : y == block.top) {
-        found |= touch(row, block, count, cells, list_size, lists);
+  begin_gathering(&gathered);
+  block_t brick = block;
+  for (brick.front = block.front; brick.front < block.back; brick.front += BRICK) {
+    brick.back = min(brick.front + BRICK, block.back);
+    for (brick.top = block.top; brick.top < block.bottom; brick.top += BRICK) {
+      brick.bottom = min(brick.top + BRICK, block.bottom);
+      FOR_EACH_ROW(y, z, brick) {
+        global const uint* const row = row_of(labels, y, z, size);
+        global const uint* const below =
+            y + 1 < size.y ? row + size.x : PERIODIC_Y ? row_of(row_behind, 0, z, size) : row;
+        const int z_behind = wrapped(z + 1, DEPTH(size), PERIODIC_Z);
+        global const uint* const behind = z_behind < DEPTH(size) ? row_of(labels, y, z_behind, size) : row;
+        if (gathered.count + most_of_row > MOST_GATHERED)
+          add_gathered(&gathered, block.index, CELL_ARGUMENTS, PAIR_ARGUMENTS);
+        add_borders(row, below, block, size.x, true, count, &gathered, CELL_ARGUMENTS, PAIR_ARGUMENTS);
+        if (behind != row)
+          add_borders(row, behind, block, size.x, false, count, &gathered, CELL_ARGUMENTS, PAIR_ARGUMENTS);
       }
-      if (found) atomic_or(overflow, 1u);
+      add_gathered(&gathered, block.index, CELL_ARGUMENTS, PAIR_ARGUMENTS);
     }
-    add_borders(row, below, block, size.x, true, count, CELL_ARGUMENTS, PAIR_ARGUMENTS);
-    if (behind != row) add_borders(row, behind, block, size.x, false, count, CELL_ARGUMENTS, PAIR_ARGUMENTS);
   }
 }
 
@@ -172,11 +229,14 @@ static inline void sink(global uint* pair_list, uint begin, uint size, uint hole
 }
 
 // Sorts the pairs of each cell by their second cell, where some are the table's. Most cells have few neighbours; a heap
-// sort is for the one that may have all others around it.
+// sort is for the one that may have all others around it; nothing is done where they are sorted.
 kernel void sort_pairs(uint count, global const uint* restrict first, global uint* restrict pair_list) {
   const uint id = (uint)get_global_id(0);
   if (id >= count) return;
   const uint begin = first[id], size = first[id + 1] - begin;
+  uint sorted = 1;
+  while (sorted < size && second_of(pair_list, begin + sorted - 1) < second_of(pair_list, begin + sorted)) ++sorted;
+  if (sorted >= size) return;
   for (uint i = size / 2; i-- > 0;) sink(pair_list, begin, size, i, vload3(begin + i, pair_list));
   for (uint last = size; last-- > 1;) {
     const uint3 pair = vload3(begin + last, pair_list);
