@@ -28,7 +28,7 @@ def sets():
         yield f"{seeds:,} random points, {1024 * 1024 // seeds:,} pixels each", rng.uniform(0, 1024, (seeds, 2)), shape
     table = Path(__file__).parents[1] / "samples" / "cities-5000.csv"
     cities = numpy.genfromtxt(table, delimiter=",", skip_header=1, usecols=(0, 1))
-    yield "5,000 cities on 1800 x 900", cities * 5, (900, 1800)
+    yield "5,000 cities on 1800 x 900", (cities * (1, -1) + (180, 90)) * 5, (900, 1800)
 
 
 print("| points | wrong, snapped | farther by | without a pixel | wrong, not snapped | farther by | without a pixel |")

@@ -23,7 +23,7 @@ void refuse_mixed(const MethodOptions& options) {
 /// serve.
 void check_low_resolution(const MethodOptions& options) {
   refuse_mixed(options);
-  if (options.metric == Metric::manhattan) {
+  if (options.metric != Metric::euclidean) {
     throw Error(
         "low-resolution has the Euclidean metric alone; by the Manhattan one jfa takes hardly longer and has "
         "fewer wrong pixels");
@@ -115,6 +115,8 @@ const Method& method(std::string_view name) {
 }
 
 void check_options(const Method& method, const MethodOptions& options) {
+  if (!method.exact && options.metric == Metric::great_circle)
+    throw Error("the method " + method.name + " knows no great circles; exact does");
   if (!method.continues) refuse_mixed(options);
   if (method.run == run_low_resolution) check_low_resolution(options);
 }

@@ -204,6 +204,19 @@ void prepare_windows(const Device& device, const Specialisation& what) {
   }
 }
 
+/// Great circles.
+void prepare_globe(const Device& device) {
+  if (!has_doubles(device)) return;
+  const Grid map(Axis(400, -180, 180).periodic(), Axis(200, -90, 90));
+  for (const double side : {180.0, 200.0}) {  // all in the map, and not
+    Diagram diagram(device, side > 180 ? Window(map, 0, 0, 300, 200) : Window(map));
+    Field<float> distances;
+    exact_diagram(Seeds(device, map, spread_points(1000, side, 90)), diagram, {Metric::great_circle});
+    distance_field(diagram, distances);
+    cell_table(diagram);
+  }
+}
+
 }  // namespace
 
 std::size_t most_preparation_parts() { return std::size(specialisations); }
@@ -221,6 +234,7 @@ std::size_t prepare_programs(const Device& device, const PreparationPart& part) 
       prepare_volumes(device);
       prepare_images(device);
       prepare_exact_cells(device);
+      prepare_globe(device);
     }
   }
   return keep_programs(device);

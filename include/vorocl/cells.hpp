@@ -152,14 +152,15 @@ VOROCL_API Report cell_statistics(const Diagram& diagram, CellStatisticsResult& 
 /// result if nothing has been summed.
 VOROCL_API Report cell_statistics(const CellSumsResult& sums, CellStatisticsResult& result);
 
-/// One row of a table of cells, in the units of the data.
+/// One row of a table of cells, in the units of the data; by great circles with areas in square kilometres,
+/// and centroids on the sphere, in degrees.
 struct CellRow {
   std::uint32_t id = 0;
   Point seed;                    ///< as it was given
   std::uint32_t pixels = 0;      ///< of the cell
   double area = 0;               ///< pixels times the area of one; in a volume, the volume
   Point centroid;                ///< all NaN of an empty cell; across a period's end it may lie outside
-  bool touches_border = false;   ///< of the window
+  bool touches_border = false;   ///< of the window; on the globe a pole is none
   std::uint32_t neighbours = 0;  ///< cells that it shares an edge with, in a volume a face
 };
 

@@ -63,7 +63,7 @@ extern template class Field<std::uint32_t>;
 VOROCL_API Report distance_field(const Diagram& diagram, Field<std::int32_t>& field);
 
 /// As above and in the same unit, of any labels: the root of the squared Euclidean distance, within 3 units
-/// in the last place. Of any length.
+/// in the last place. Of any length. By great circles kilometres, to a millionth or 1 cm.
 VOROCL_API Report distance_field(const Diagram& diagram, Field<float>& field);
 
 /// 1 for each pixel that shares an edge, in a volume a face, with a pixel of another label, else 0. Enqueues

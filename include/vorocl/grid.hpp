@@ -24,8 +24,9 @@ struct Point {
 
 /// How far apart two pixel centres are, computed in integers on every device.
 enum class Metric {
-  euclidean,  ///< L2 (compared as dx * dx + dy * dy)
-  manhattan,  ///< L1: |dx| + |dy|
+  euclidean,     ///< L2 (compared as dx * dx + dy * dy)
+  manhattan,     ///< L1: |dx| + |dy|
+  great_circle,  ///< on the globe, for exact diagrams of longitudes and latitudes: see exact_diagram()
 };
 
 /// Which pixels a wave looks at besides the pixel itself.

@@ -81,9 +81,11 @@ VOROCL_API const char* vorocl_version(void);
 
 // Choices are ints, so that a wrong one is an error rather than undefined behaviour.
 
-/// One of VOROCL_EUCLIDEAN, VOROCL_MANHATTAN.
+/// One of VOROCL_EUCLIDEAN, VOROCL_MANHATTAN and, for exact diagrams of longitudes and latitudes in degrees,
+/// VOROCL_GREAT_CIRCLE: distances are kilometres there, and cells have square kilometres
+/// (vorocl_cell_table()).
 typedef int vorocl_metric;
-enum { VOROCL_EUCLIDEAN = 0, VOROCL_MANHATTAN = 1 };
+enum { VOROCL_EUCLIDEAN = 0, VOROCL_MANHATTAN = 1, VOROCL_GREAT_CIRCLE = 2 };
 
 /// Which axes of a grid are periodic. VOROCL_PERIODIC_NONE, or a sum of VOROCL_PERIODIC_X, VOROCL_PERIODIC_Y
 /// and VOROCL_PERIODIC_Z.
@@ -505,6 +507,22 @@ VOROCL_API vorocl_status vorocl_energy(const vorocl_diagram* diagram, double* en
 /// first `room` of them, and how many there are. With no room, `points` may be NULL. See vorocl::vertices().
 VOROCL_API vorocl_status vorocl_vertices(const vorocl_diagram* diagram, vorocl_point* points, size_t room,
                                          size_t* count);
+
+/// As vorocl::CellRow: by great circles areas are square kilometres, and centroids degrees.
+typedef struct vorocl_cell_row {
+  uint32_t id;
+  vorocl_point seed;
+  uint32_t pixels;
+  double area;
+  vorocl_point centroid;
+  int touches_border;
+  uint32_t neighbours;
+} vorocl_cell_row;
+
+/// The cells of the seeds that are there, by id: the first `room` of them, and how many there are. With no
+/// room, `rows` may be NULL. Waits. See vorocl::cell_table().
+VOROCL_API vorocl_status vorocl_cell_table(const vorocl_diagram* diagram, vorocl_cell_row* rows, size_t room,
+                                           size_t* count);
 
 /// @}
 /// @name Sums of cells: see vorocl::cell_sums()

@@ -16,7 +16,8 @@ namespace vorocl::python {
 Metric metric_of(const std::string& name) {
   if (name == "euclidean") return Metric::euclidean;
   if (name == "manhattan") return Metric::manhattan;
-  throw Error("there is no metric \"" + name + "\"; there are euclidean, manhattan");
+  if (name == "great-circle") return Metric::great_circle;
+  throw Error("there is no metric \"" + name + "\"; there are euclidean, manhattan, great-circle");
 }
 
 namespace {
@@ -176,6 +177,30 @@ std::vector<Row> measure_cells(DiagramObject& diagram) {
   return rows;
 }
 
+/// One cell on the globe, as GLOBE_CELL in vorocl/_objects.py says it: in degrees and square kilometres.
+struct GlobeRow {
+  double x, y, area, centroid_x, centroid_y, largest_distance;
+  std::uint32_t pixels, neighbours;
+  bool touches_border;
+};
+
+std::vector<GlobeRow> measure_globe(DiagramObject& diagram) {
+  constexpr double none = std::numeric_limits<double>::quiet_NaN();
+  std::vector<GlobeRow> rows(seeds_of(diagram).size(), {none, none, 0, none, none, none, 0, 0, false});
+  for (const CellRow& cell : cell_table(diagram.diagram))
+    rows[cell.id] = {cell.seed.x, cell.seed.y, cell.area,       cell.centroid.x,    cell.centroid.y,
+                     none,        cell.pixels, cell.neighbours, cell.touches_border};
+  const std::vector<std::uint32_t> labels = diagram.diagram.read();
+  distance_field(diagram.diagram, diagram.distances);
+  const std::vector<float> distances = diagram.distances.read();
+  for (std::size_t pixel = 0; pixel < labels.size(); ++pixel) {
+    if (labels[pixel] >= rows.size()) continue;  // none
+    double& largest = rows[labels[pixel]].largest_distance;
+    largest = std::fmax(largest, static_cast<double>(distances[pixel]));
+  }
+  return rows;
+}
+
 std::vector<std::uint32_t> measure_areas(DiagramObject& diagram) {
   std::vector<std::uint32_t> result;
   cell_sums(diagram.diagram, diagram.sums);
@@ -283,6 +308,7 @@ void bind_diagrams(nb::module_& module) {
       .def("write", write, nb::arg("labels"), nb::arg("seeds").none(), nb::arg("metric"), without_gil())
       .def("distances", distances, nb::arg("values"), without_gil())
       .def("cells", measured<std::uint8_t, measure_cells>)
+      .def("globe_cells", measured<std::uint8_t, measure_globe>)
       .def("areas", measured<std::uint32_t, measure_areas>)
       .def("to_data", to_data, nb::arg("points"), without_gil())
       .def("adjacency", measured<std::uint32_t, measure_adjacency>)

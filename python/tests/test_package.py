@@ -87,7 +87,7 @@ def test_types_can_be_asked_for_at_run_time():
                 typing.get_type_hints(member)
     hints = typing.get_type_hints(vorocl.diagram)
     assert set(typing.get_args(hints["method"])) == {name for name, *_ in _vorocl.methods()}
-    assert typing.get_args(hints["metric"]) == ("euclidean", "manhattan")
+    assert typing.get_args(hints["metric"]) == ("euclidean", "manhattan", "great-circle")
 
 
 def test_all_that_is_public_is_documented():

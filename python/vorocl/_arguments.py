@@ -14,7 +14,7 @@ from . import _vorocl
 from ._errors import BadArgument
 
 Method = Literal["standard-flooding", "jfa", "jfa+1", "jfa+2", "1+jfa", "djfa", "low-resolution", "exact"]
-Metric = Literal["euclidean", "manhattan"]
+Metric = Literal["euclidean", "manhattan", "great-circle"]
 Outside = Literal["count", "absent", "refuse"]
 Units = Literal["data", "pixels"]
 Truth = Literal["snapped", "true"]

@@ -40,7 +40,7 @@ from ._arguments import (
 )
 from ._device import Device, to_device
 from ._errors import BadArgument
-from ._grid import Frame, Grid, Periodic, Shape, Unpack, to_grid, to_periodic
+from ._grid import Frame, Grid, Periodic, Shape, Unpack, to_globe, to_grid, to_periodic
 from ._objects import Diagram, DistanceErrors, Seeds
 from ._parameters import with_parameters
 
@@ -82,6 +82,8 @@ def _filled(
     labels: Optional[NDArray[np.uint32]] = None,
 ) -> Diagram:
     """The diagram, which is the thread's until its next call; or its labels alone, in an array."""
+    if metric == "great-circle":
+        grid = to_globe(grid, outside)
     array, snapped = to_points(points, len(grid.shape)), to_snap(snap, method)
     wanted = (grid, to_outside(outside), snapped, to_device(device))
     if _workspace.made_for != wanted:

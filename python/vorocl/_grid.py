@@ -118,6 +118,19 @@ def to_grid(grid: Union[Grid, Shape], frame: Frame) -> Grid:
     return grid
 
 
+def to_globe(grid: Grid, outside: Outside) -> Grid:
+    """The grid as one of longitudes and latitudes: all of the globe without bounds, and round where it has all longitudes."""
+    if len(grid.shape) != 2 or grid.spacing or grid.tilt or any(grid.periodic):
+        raise BadArgument(
+            'metric="great-circle" takes a plane of longitudes, which are periodic by themselves, and latitudes: no periodic, '
+            "tilt or spacing, and no volume"
+        )
+    if to_outside(outside) != "count":
+        raise BadArgument(f'metric="great-circle" counts all points: no outside={shown(outside)}')
+    bounds: Any = grid.bounds or (-180.0, -90.0, 180.0, 90.0)
+    return replace(grid, bounds=bounds, periodic=(bounds[2] - bounds[0] == 360, False))
+
+
 @functools.lru_cache(maxsize=64)
 def _made(grid: Grid, closed: bool) -> _vorocl.Grid:
     depth, height, width = [1, *grid.shape][-3:]

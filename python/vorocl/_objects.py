@@ -42,6 +42,15 @@ CELL = row_of(
 )
 """One row of `cells` in pixels. Those of a plane leave out ``z``, ``centroid_z``, ``front`` and ``back``."""
 
+GLOBE_CELL = row_of(
+    {
+        np.float64: "x y area centroid_x centroid_y largest_distance",
+        np.uint32: "pixels neighbours",
+        np.bool_: "touches_border",
+    }
+)
+"""One row of `cells` by great circles."""
+
 
 class DistanceErrors(NamedTuple):
     """What `errors` finds."""
@@ -258,6 +267,7 @@ class Diagram(OnDevice):
         self._shape, self._units = made.shape, made._units  # the latter of its seeds, when it has some
         self._device = to_device(device)
         self._are_in_data = False  # what the points of its seeds are in
+        self._on_globe = False  # by great circles
         there = None if labels is None else _handle(labels)
         self._diagram = _vorocl.Diagram(self._device._device, made._of("count"), there)
 
@@ -290,7 +300,8 @@ class Diagram(OnDevice):
         method : str, optional
             "exact", or one that floods and is approximate: "standard-flooding", "jfa", "jfa+1",
             "jfa+2", "1+jfa", "djfa", "low-resolution". "djfa" goes on from the labels that the diagram holds.
-        metric : {"euclidean", "manhattan"}, optional
+        metric : {"euclidean", "manhattan", "great-circle"}, optional
+            Of "great-circle" the grid of the seeds has bounds in degrees, and cells reach across its ends if x is periodic.
         max_displacement : float, optional
             For "djfa" alone: how far a seed has moved along an axis, at most, since the diagram was last filled, in
             pixels. Without it, what the seeds know of it.
@@ -310,6 +321,7 @@ class Diagram(OnDevice):
             to_seeds(seeds), to_text(method, "method"), to_text(metric, "metric"), displacement, None
         )
         self._are_in_data, self._units = seeds._are_in_data, seeds.grid._units
+        self._on_globe = metric == "great-circle"
         return report
 
     def read(self, out: Optional[NDArray[np.uint32]] = None) -> NDArray[np.uint32]:
@@ -338,7 +350,7 @@ class Diagram(OnDevice):
             Integers of the diagram's shape. Those that are no seed's id count as none.
         seeds : Seeds, optional
             Which the labels name. Without them, measures that need seeds raise an error.
-        metric : {"euclidean", "manhattan"}, optional
+        metric : {"euclidean", "manhattan", "great-circle"}, optional
             By which they do.
 
         Raises
@@ -349,6 +361,7 @@ class Diagram(OnDevice):
         self._diagram.write(image, named, to_text(metric, "metric"))
         if seeds is not None:
             self._are_in_data, self._units = seeds._are_in_data, seeds.grid._units
+        self._on_globe = seeds is not None and metric == "great-circle"
 
     @property
     def buffer(self) -> Buffer:
@@ -386,6 +399,8 @@ class Diagram(OnDevice):
 
     def _length(self, of_sides: bool = False) -> float:
         """The length of a unit of distances, or of a pixel's side, in the units of the points."""
+        if self._on_globe:
+            raise BadArgument('by great circles borders have no length in kilometres: give units="pixels"')
         length = self._scale()[2 if of_sides else 1]
         if length is None:
             raise BadArgument(
@@ -393,6 +408,13 @@ class Diagram(OnDevice):
                 "shape like that of the bounds"
             )
         return length
+
+    def _in_data_of_plane(self, units: Optional[Units], what: str) -> bool:
+        """Whether results are to be brought into the units of the data. On the globe they are in its own."""
+        in_data = to_units(units, self._are_in_data or self._on_globe)
+        if self._on_globe and not in_data:
+            raise BadArgument(f'by great circles {what} are in kilometres: units="pixels" is for planes')
+        return in_data and not self._on_globe
 
     @with_parameters
     def distances(
@@ -406,7 +428,7 @@ class Diagram(OnDevice):
             Where they go: float32 of the diagram's shape, C-contiguous. Without it, a new array.
         <units>
         """
-        length = self._length() if to_units(units, self._are_in_data) else 1
+        length = self._length() if self._in_data_of_plane(units, "distances") else 1
         values = output(out, self._shape, np.float32)
         self._diagram.distances(values)
         if length != 1:
@@ -449,6 +471,9 @@ class Diagram(OnDevice):
             Where pixels are no squares in the units of `bounds` a length has no scale: there the names of those in pixels
             say so, ``perimeter_px`` and ``largest_distance_px``.
 
+            By great circles there are ``x``, ``y``, ``area``, ``centroid_x``, ``centroid_y``, ``largest_distance``,
+            ``pixels``, ``neighbours`` and ``touches_border``, in degrees, kilometres and square kilometres.
+
             In a volume there are ``z``, ``centroid_z``, ``front`` and ``back`` (the first and last
             slices) too. Its area is the volume of a cell, and its perimeter the voxel faces that it shares with others.
 
@@ -470,7 +495,9 @@ class Diagram(OnDevice):
         >>> vorocl.cells([(0, 0, 0), (5, 0, 0)], (2, 3, 6), method="jfa")[["area", "centroid_z", "perimeter"]].tolist()
         [(18, 1.0, 6), (18, 1.0, 6)]
         """
-        in_data = to_units(units, self._are_in_data)
+        in_data = self._in_data_of_plane(units, "cells")
+        if self._on_globe:
+            return self._diagram.globe_cells().view(GLOBE_CELL)[:, 0]
         cells = self._diagram.cells().view(CELL)[:, 0]
         return self._in_data(cells) if in_data else cells[self._fields()]
 
@@ -533,7 +560,9 @@ class Diagram(OnDevice):
         >>> vorocl.areas([(0.25, 0.25), (3.75, 1.75)], (4, 8), bounds=(0, 0, 4, 2))
         array([4., 4.])
         """
-        in_data = to_units(units, self._are_in_data)
+        in_data = self._in_data_of_plane(units, "areas")
+        if self._on_globe:
+            return np.ascontiguousarray(self.cells()["area"])
         pixels = self._diagram.areas()[:, 0]
         return pixels * self._scale()[0] if in_data else pixels
 

@@ -33,8 +33,10 @@ method : str, optional
     "exact", or one that floods and is approximate: "standard-flooding", "jfa", "jfa+1", "jfa+2", "1+jfa", "djfa",
     "low-resolution".""",
     "metric": """\
-metric : {"euclidean", "manhattan"}, optional
-    How far a pixel's centre is from a point.""",
+metric : {"euclidean", "manhattan", "great-circle"}, optional
+    How far a pixel's centre is from a point. "great-circle": on the globe, for "exact". Points are (longitude, latitude)
+    in degrees, `bounds` are a part of the globe or, without them, (-180, -90, 180, 90), longitudes go round by
+    themselves, distances are kilometres on a sphere of 6371.0088 km, and areas square kilometres.""",
     "bounds": """\
 bounds : sequence of float, optional
     (x0, y0, x1, y1), the rectangle of the points' plane that the grid shows, or of a volume (x0, y0, z0, x1, y1, z1):

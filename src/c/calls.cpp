@@ -77,6 +77,7 @@ void refuse(const char* what, int value) {
 Metric to_metric(vorocl_metric metric) {
   if (metric == VOROCL_EUCLIDEAN) return Metric::euclidean;
   if (metric == VOROCL_MANHATTAN) return Metric::manhattan;
+  if (metric == VOROCL_GREAT_CIRCLE) return Metric::great_circle;
   refuse("metric", metric);
 }
 

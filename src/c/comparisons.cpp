@@ -46,6 +46,22 @@ vorocl_status vorocl_energy(const vorocl_diagram* diagram, double* sum) {
   return answer(sum, "energy", [&] { return energy(of(diagram)); });
 }
 
+vorocl_status vorocl_cell_table(const vorocl_diagram* diagram, vorocl_cell_row* rows, size_t room,
+                                size_t* count) {
+  return guarded([&] {
+    given(count, "count");
+    if (room > 0) given(rows, "rows");
+    const std::vector<CellRow> found = cell_table(of(diagram));
+    for (std::size_t i = 0; i < std::min(room, found.size()); ++i) {
+      const CellRow& cell = found[i];
+      rows[i] = {cell.id,        to_c(cell.seed),     cell.pixels,
+                 cell.area,      to_c(cell.centroid), cell.touches_border ? 1 : 0,
+                 cell.neighbours};
+    }
+    *count = found.size();
+  });
+}
+
 vorocl_status vorocl_vertices(const vorocl_diagram* diagram, vorocl_point* points, size_t room,
                               size_t* count) {
   return guarded([&] {

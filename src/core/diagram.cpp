@@ -5,6 +5,7 @@
 
 #include "core/diagram_state.hpp"
 #include "core/seeds_state.hpp"
+#include "globe/globe.hpp"
 #include "runtime/buffer.hpp"
 #include "runtime/metric.hpp"
 #include "runtime/opencl_info.hpp"
@@ -66,10 +67,11 @@ void DiagramState::put_labels_at(std::uint32_t* memory) {
   }
 }
 
-std::shared_ptr<const Placement> DiagramState::place(const Seeds& seeds) const {
+std::shared_ptr<const Placement> DiagramState::place(const Seeds& seeds, Metric metric) const {
   if (!seeds.device().same_as(device)) throw Error("the seeds and the diagram belong to different devices");
   if (seeds.grid() != window.grid()) throw Error(difference(seeds.grid(), window.grid()));
-  return Internal::state(seeds).frame()->place_in(window, grid);
+  const SeedsFrame& frame = *Internal::state(seeds).frame();
+  return metric == Metric::great_circle ? place_on_globe(window, grid, frame) : frame.place_in(window, grid);
 }
 
 template <typename Then>
@@ -104,9 +106,11 @@ void DiagramState::read(std::uint32_t* to) {
 Filling::Filling(const Seeds& seeds, Diagram& diagram, Metric metric, const char* method)
     : diagram_(Internal::state(diagram)), previous_(std::exchange(diagram_.contents, std::nullopt)) {
   ++*diagram_.fills;
-  next_.placement = diagram_.place(seeds);
-  next_.seeds = Internal::state(seeds).frame();
+  if (metric == Metric::great_circle && method != std::string_view("exact"))
+    throw Error("the method " + std::string(method) + " knows no great circles; exact does");
   next_.metric = checked(metric);
+  next_.placement = diagram_.place(seeds, metric);
+  next_.seeds = Internal::state(seeds).frame();
   next_.method = method;
 }
 
@@ -192,10 +196,11 @@ namespace {
 DiagramContents written() { return {}; }
 DiagramContents written(const DiagramState& state, const Seeds& seeds, Metric metric) {
   DiagramContents contents;
-  contents.placement = state.place(seeds);
-  contents.seeds = Internal::state(seeds).frame();
   contents.metric = checked(metric);
-  if (contents.seeds->are_points) contents.points = contents.seeds->place_points_in(state.window, state.grid);
+  contents.placement = state.place(seeds, metric);
+  contents.seeds = Internal::state(seeds).frame();
+  if (contents.seeds->are_points && metric != Metric::great_circle)
+    contents.points = contents.seeds->place_points_in(state.window, state.grid);
   return contents;
 }
 

@@ -64,7 +64,7 @@ struct DiagramState {
   void reserve(cl::Buffer& buffer, std::size_t bytes) { memory.reserve(buffer, bytes); }
 
   /// Where seeds lie in the window. Throws Error unless they have this device and its grid.
-  std::shared_ptr<const Placement> place(const Seeds& seeds) const;
+  std::shared_ptr<const Placement> place(const Seeds& seeds, Metric metric = Metric::euclidean) const;
 
   /// Waits for the queue. If the device fails, the diagram counts as never filled. Throws BadPoint if the
   /// frame that the labels are of had one.
@@ -90,7 +90,8 @@ struct DiagramState {
 /// counts as never filled.
 class Filling {
  public:
-  /// Throws Error unless seeds and diagram fit together.
+  /// Throws Error unless seeds and diagram fit together, and for great circles by another method than
+  /// "exact".
   Filling(const Seeds& seeds, Diagram& diagram, Metric metric, const char* method);
 
   const SeedsFrame& seeds() const { return *next_.seeds; }

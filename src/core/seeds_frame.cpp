@@ -7,6 +7,7 @@
 
 #include "core/snapping.hpp"
 #include "core/window_places.hpp"
+#include "globe/globe.hpp"
 #include "runtime/buffer.hpp"
 // Last: it defines macros.
 #include "core/place_sizes.cl"
@@ -220,21 +221,28 @@ class Remembered {
   std::vector<Known> known_;
 };
 
-class Placements {
+/// Something of a frame that is made when it is first asked for.
+template <typename T>
+class MadeOnce {
  public:
-  Remembered<Placement> of_pixels;
-  Remembered<PointPlacement> of_points;
-
-  template <typename Find>
-  std::shared_ptr<const std::vector<Place>> places(Find find) {
+  template <typename Make>
+  std::shared_ptr<const T> get(Make make) {
     const std::lock_guard<std::mutex> lock(mutex_);
-    if (!places_) places_ = std::make_shared<const std::vector<Place>>(find());
-    return places_;
+    if (!made_) made_ = make();
+    return made_;
   }
 
  private:
   std::mutex mutex_;
-  std::shared_ptr<const std::vector<Place>> places_;
+  std::shared_ptr<const T> made_;
+};
+
+class Placements {
+ public:
+  Remembered<Placement> of_pixels;
+  Remembered<PointPlacement> of_points;
+  MadeOnce<std::vector<Place>> places;
+  MadeOnce<GlobeSeeds> on_globe;
 };
 
 std::shared_ptr<Placements> no_placements() { return std::make_shared<Placements>(); }
@@ -252,7 +260,7 @@ std::shared_ptr<const std::vector<Place>> SeedsFrame::places() const {
   if (listed) return listed;
   refuse_volume(grid, "a list of points (x, y)");
   check();
-  return placements->places([&] {
+  return placements->places.get([&] {
     std::vector<Place> places;
     places.reserve(size);
     if (given.numbers) {
@@ -267,8 +275,12 @@ std::shared_ptr<const std::vector<Place>> SeedsFrame::places() const {
                              : Place{centre_of(position & 0xffff), centre_of(position >> 16)});
       }
     }
-    return places;
+    return std::make_shared<const std::vector<Place>>(std::move(places));
   });
+}
+
+std::shared_ptr<const GlobeSeeds> SeedsFrame::on_globe() const {
+  return placements->on_globe.get([this] { return seeds_on_globe(*this); });
 }
 
 std::shared_ptr<const Placement> SeedsFrame::place_in(const Window& window, const PixelGrid& shown) const {

@@ -61,6 +61,7 @@ struct Way {
 };
 
 struct Marks;
+struct GlobeSeeds;
 
 /// The placements of a frame in windows that were asked for.
 class Placements;
@@ -117,6 +118,9 @@ struct SeedsFrame {
 
   /// The same where `are_points`.
   std::shared_ptr<const PointPlacement> place_points_in(const Window& window, const PixelGrid& shown) const;
+
+  /// The seeds on the globe: see globe/globe.hpp.
+  std::shared_ptr<const GlobeSeeds> on_globe() const;
 
   /// The greatest way of a seed along an axis to this frame from an earlier one. May wait.
   double way_from(const SeedsFrame& earlier) const;

@@ -3,6 +3,7 @@
 #include "core/diagram_state.hpp"
 #include "exact/group_shape.hpp"
 #include "exact/plane.hpp"
+#include "globe/globe.hpp"
 #include "masks/exact_diagram.hpp"
 #include "points/exact_diagram.hpp"
 
@@ -11,6 +12,7 @@ namespace vorocl {
 Report exact_diagram(const Seeds& seeds, Diagram& diagram, const ExactOptions& options) {
   Filling filling(seeds, diagram, options.metric, "exact");
   DiagramState& state = Internal::state(diagram);
+  if (options.metric == Metric::great_circle) return exact_diagram_on_globe(filling, state);
   if (state.grid.is_volume()) check_exact_volume(filling, state);
   if (labels_by_passes(filling, state)) return exact_diagram_by_passes(filling, state);
   if (state.grid.is_volume()) return exact_diagram_of_volume(filling, state);

@@ -270,7 +270,7 @@ void make_tree(SitesOfKind& tree, std::vector<OnCurve>&& order,
                const std::vector<double>& lags) {
   using Number = typename SitesOfKind::Number;
   constexpr std::size_t dimensions = SitesOfKind::dimensions;
-  constexpr Number far = SiteKind<dimensions>::far;
+  constexpr Number far = std::is_integral_v<Number> ? 0 : SiteKind<dimensions>::far;
   const auto lag_of = [&lags](cl_uint id) { return lags.empty() ? 0.0 : lags[id]; };
   sort(order, [&](const OnCurve& p, const OnCurve& q) {
     if (p.order != q.order) return p.order < q.order;
@@ -408,5 +408,23 @@ template PlaneSites sites_of(const Grid&, const std::vector<std::optional<Point>
                              const std::vector<double>&);
 template VolumeSites sites_of(const Grid&, const std::vector<std::optional<Point>>&,
                               const std::vector<double>&);
+
+DirectionSites sites_of_directions(const std::vector<cl_int4>& directions) {
+  std::vector<std::array<cl_int, 3>> places(directions.size());
+  std::vector<OnCurve> order;
+  order.reserve(directions.size());
+  for (std::size_t id = 0; id < directions.size(); ++id) {
+    std::array<std::uint32_t, 3> place;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      places[id][axis] = directions[id].s[axis];
+      place[axis] = (static_cast<std::uint32_t>(directions[id].s[axis]) + 0x80000000u) >> (32 - hilbert_bits);
+    }
+    if (places[id] != std::array<cl_int, 3>{})
+      order.push_back({hilbert_order(place), static_cast<cl_uint>(id)});
+  }
+  DirectionSites tree;
+  make_tree(tree, std::move(order), places, {});
+  return tree;
+}
 
 }  // namespace vorocl

@@ -47,11 +47,15 @@ struct Sites {
 
 using PlaneSites = Sites<cl_int, cl_int4, 2>;
 using VolumeSites = Sites<cl_double, cl_double4, 3>;
+using DirectionSites = Sites<cl_int, cl_int4, 3>;  // of the globe
 
 /// Throws Error if the grid has less than a step along an axis, or is tilted and too flat. `weights`: by id,
 /// or none.
 template <typename SitesOfKind>
 SitesOfKind sites_of(const Grid& grid, const std::vector<std::optional<Point>>& points,
                      const std::vector<double>& weights);
+
+/// Of whole numbers x, y and z, by id; three zeros where there is none.
+DirectionSites sites_of_directions(const std::vector<cl_int4>& directions);
 
 }  // namespace vorocl

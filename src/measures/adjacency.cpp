@@ -207,7 +207,7 @@ std::vector<std::uint32_t> AdjacencyResult::read_perimeters() const {
 Report adjacency(const Diagram& diagram, AdjacencyResult& result) {
   Measuring<AdjacencyState> measuring(result);
   AdjacencyState& found = measuring.state();
-  MeasuredDiagram of = cells_of(diagram);
+  MeasuredDiagram of = cells_of(diagram, OnGlobe::yes);
   found.labels = diagram.labels();
   found.fills = Internal::state(diagram).fills;
   found.fill_measured = *found.fills;

@@ -62,7 +62,7 @@ cl::Event sum_areas(CellStatisticsState& statistics, const MeasuredDiagram& of, 
 Report cell_statistics(const Diagram& diagram, CellStatisticsResult& result) {
   Measuring<CellStatisticsState> measuring(result);
   CellStatisticsState& statistics = measuring.state();
-  MeasuredDiagram of = cells_of(diagram);
+  MeasuredDiagram of = cells_of(diagram, OnGlobe::yes);
   const cl::Event first = add_areas(statistics, of, diagram.labels());
   const cl::Event last = sum_areas(statistics, of, statistics.area);
   return measuring.commit(std::move(of), first, last() != nullptr ? last : first);

@@ -1,3 +1,4 @@
+#include "globe/globe.hpp"
 #include "measures/measurement.hpp"
 #include "vorocl/adjacency.hpp"
 #include "vorocl/cells.hpp"
@@ -19,17 +20,18 @@ Point point_in(const Window& window, const Point& position) {
 }  // namespace
 
 std::vector<CellRow> cell_table(const Diagram& diagram) {
+  const MeasuredDiagram of = cells_of(diagram, OnGlobe::yes);
+  AdjacencyResult pairs;
+  adjacency(diagram, pairs);
+  const std::vector<std::uint32_t> neighbours = pairs.read_neighbours();
+  if (of.metric == Metric::great_circle) return cells_on_globe(of, diagram.read(), neighbours);
   CellSumsResult sums_of_cells;
   CellShapesResult shapes_of_cells;
-  AdjacencyResult pairs;
   cell_sums(diagram, sums_of_cells);
   cell_shapes(diagram, shapes_of_cells);
-  adjacency(diagram, pairs);
   const std::vector<CellSums> sums = sums_of_cells.read();
   const std::vector<CellShape> shapes = shapes_of_cells.read();
-  const std::vector<std::uint32_t> neighbours = pairs.read_neighbours();
 
-  const MeasuredDiagram of = cells_of(diagram);
   const Window& window = of.window;
   const Grid& grid = window.grid();
   const double area_of_pixel = length_of_pixel(grid.x()) * length_of_pixel(grid.y()) *

@@ -2,6 +2,7 @@
 
 #include <type_traits>
 
+#include "globe/globe.hpp"
 #include "measures/field.hpp"
 #include "runtime/buffer.hpp"
 
@@ -68,8 +69,18 @@ Report distance_field(const Diagram& diagram, Field<std::int32_t>& field) {
 Report distance_field(const Diagram& diagram, Field<float>& field) {
   Measuring<FieldState<float>> measuring(field);
   FieldState<float>& state = measuring.state();
-  MeasuredDiagram of = cells_of(diagram);
+  MeasuredDiagram of = cells_of(diagram, OnGlobe::yes);
   state.make_room_for(of);
+  if (of.metric == Metric::great_circle) {
+    const GlobePixels pixels(of.device, of.window);
+    const cl::Event event =
+        state.kernels
+            .get(without_vectors(of.device), "globe/globe.cl", "globe_distances", of.grid.without_periods())
+            .over_items(of.grid.pixels(), diagram.labels(), of.seeds->on_globe()->directions, of.count(),
+                        pixels.columns, pixels.rows, of.grid.width(), of.grid.height(),
+                        static_cast<cl_float>(2 * earth_radius), state.values);
+    return measuring.commit(std::move(of), event, event);
+  }
   const cl::Event event =
       state.kernel(of, "float_distances", of.options())
           .over_grid(diagram.labels(), of.positions(), of.count(), of.periods(), of.size(), state.values);

@@ -48,7 +48,7 @@ cl_long greatest_compared(const MeasuredDiagram& of, double pixels) {
 
 Report map_labels(const Diagram& diagram, const cl::Buffer& table, Field<std::uint32_t>& field) {
   Measuring<LabelState> measuring(field);
-  MeasuredDiagram of = cells_of(diagram);
+  MeasuredDiagram of = cells_of(diagram, OnGlobe::yes);
   check_foreign_buffer(of.device, table, of.count() * sizeof(cl_uint),
                        "the table of " + std::to_string(of.count()) + " labels", Access::read);
   return map_by(measuring, std::move(of), diagram, table);
@@ -57,7 +57,7 @@ Report map_labels(const Diagram& diagram, const cl::Buffer& table, Field<std::ui
 Report map_labels(const Diagram& diagram, const std::vector<std::uint32_t>& table,
                   Field<std::uint32_t>& field) {
   Measuring<LabelState> measuring(field);
-  MeasuredDiagram of = cells_of(diagram);
+  MeasuredDiagram of = cells_of(diagram, OnGlobe::yes);
   if (table.size() < of.count()) {
     throw Error("the table has " + std::to_string(table.size()) + " entries; it must have " +
                 std::to_string(of.count()) + ", one for each seed");

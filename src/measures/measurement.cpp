@@ -79,8 +79,14 @@ MeasuredDiagram labels_of(const Diagram& diagram) {
   return measured;
 }
 
-MeasuredDiagram cells_of(const Diagram& diagram) {
+MeasuredDiagram cells_of(const Diagram& diagram, OnGlobe on_globe) {
   MeasuredDiagram measured = labels_of(diagram);
+  if (measured.seeds && measured.metric == Metric::great_circle && on_globe == OnGlobe::no) {
+    throw Error(
+        "a diagram of great circles has no such measure; it has cell_table(), cell_statistics(), "
+        "adjacency(), "
+        "vertices(), map_labels(), border_mask() and distance_field() of floats");
+  }
   if (measured.seeds) return measured;
   throw Error(
       "the diagram knows no seeds to measure it by; run a method, or write labels with their seeds and "

@@ -78,8 +78,10 @@ const cl::Buffer& row_behind(const MeasuredDiagram& diagram, const cl::Buffer& l
 /// A diagram for a measure that looks at labels alone.
 MeasuredDiagram labels_of(const Diagram& diagram);
 
-/// A diagram for a measure that needs its seeds. Throws Error if it knows none.
-MeasuredDiagram cells_of(const Diagram& diagram);
+/// A diagram for a measure that needs its seeds. Throws Error if it knows none, or is one of great circles
+/// and the measure is not for these.
+enum class OnGlobe { no, yes };
+MeasuredDiagram cells_of(const Diagram& diagram, OnGlobe on_globe = OnGlobe::no);
 
 /// What every result holds. It is empty before the first measurement and while one is being made: a
 /// measurement that failed leaves it so.

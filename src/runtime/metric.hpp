@@ -1,4 +1,5 @@
-// What depends on the metric, on the host. In kernels it is ALONG() of core/position.cl.
+// What depends on the metric, on the host. In kernels it is ALONG() of core/position.cl. Great circles have
+// an engine and measures of their own, so that none of the distances here is asked for theirs.
 //
 // Each of these is a switch without a default: a metric that is missing in one does not compile.
 #pragma once
@@ -18,10 +19,11 @@ inline Metric checked(Metric metric) {
   switch (metric) {
     case Metric::euclidean:
     case Metric::manhattan:
+    case Metric::great_circle:
       return metric;
   }
   throw Error("there is no metric of number " + std::to_string(static_cast<int>(metric)) +
-              "; there are euclidean and manhattan");
+              "; there are euclidean, manhattan and great_circle");
 }
 
 /// The option that builds kernels for it.
@@ -31,6 +33,8 @@ inline const char* build_option(Metric metric) {
       return " -DVOROCL_EUCLIDEAN";
     case Metric::manhattan:
       return " -DVOROCL_MANHATTAN";
+    case Metric::great_circle:  // kernels of its own
+      break;
   }
   return "";
 }
@@ -44,6 +48,8 @@ Length compared_distance(Metric metric, Length dx, Length dy) {
       return dx * dx + dy * dy;
     case Metric::manhattan:
       return (dx < 0 ? -dx : dx) + (dy < 0 ? -dy : dy);
+    case Metric::great_circle:
+      break;
   }
   return 0;
 }
@@ -55,6 +61,8 @@ inline double in_pixels(Metric metric, double compared) {
       return std::sqrt(compared);
     case Metric::manhattan:
       return compared;
+    case Metric::great_circle:
+      break;
   }
   return 0;
 }
@@ -66,6 +74,8 @@ inline double as_compared(Metric metric, double pixels) {
       return pixels * pixels;
     case Metric::manhattan:
       return pixels;
+    case Metric::great_circle:
+      break;
   }
   return 0;
 }
@@ -77,6 +87,8 @@ inline double to_corner_of_square(Metric metric) {
       return std::sqrt(2.0);
     case Metric::manhattan:
       return 2.0;
+    case Metric::great_circle:
+      break;
   }
   return 0;
 }
@@ -89,6 +101,8 @@ inline double radius_of_area(Metric metric, double pixels) {
       return pixels;
     case Metric::manhattan:
       return std::sqrt(half_pi * pixels);
+    case Metric::great_circle:
+      break;
   }
   return 0;
 }

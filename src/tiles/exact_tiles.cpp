@@ -83,6 +83,8 @@ class TileEngine {
       : device_(device), seeds_(seeds), tiling_(tiling), options_(options) {
     if (seeds.grid() != tiling.window().grid())
       throw Error("the seeds are of another grid than the tiles; make both for the same one");
+    if (options.metric == Metric::great_circle)
+      throw Error("tiles know no great circles; exact_diagram() does, window by window");
     labels_ = allocate(device, largest_bytes(), "the labels of a tile");
     if (options.cells) Internal::result(*options.cells).begin(seeds.id_end(), tiling);
   }

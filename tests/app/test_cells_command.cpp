@@ -140,9 +140,10 @@ BOOST_AUTO_TEST_CASE(columns_can_be_chosen) {
 
 BOOST_AUTO_TEST_CASE(cities_some_of_which_share_a_pixel) {
   const TemporaryFolder folder;
-  const json result = checked(
-      folder, "cells --snap --points '" VOROCL_SAMPLES "/cities-5000.csv' --bounds 0,0,360,180 --width 720",
-      numbered(cities(Grid(720, 360))));
+  const json result = checked(folder,
+                              "cells --snap --points '" VOROCL_SAMPLES
+                              "/cities-5000.csv' --bounds=-180,-90,180,90 --y-up --width 720",
+                              numbered(cities(Grid(720, 360))));
   BOOST_TEST(result.at("empty_cells").get<int>() > 1000);
 }
 

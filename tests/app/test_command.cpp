@@ -83,10 +83,10 @@ BOOST_AUTO_TEST_CASE(devices_names_the_one_that_is_picked) {
 
 BOOST_AUTO_TEST_CASE(render_draws_the_cities) {
   const TemporaryFolder folder;
-  const std::string out =
-      succeeds(folder, "render --points '" VOROCL_SAMPLES
-                       "/cities-5000.csv' --width 360 --bounds 0,0,360,180 --method jfa+1 -o a.png "
-                       "--labels a.npy --edges --points-overlay --color distance --palette turbo");
+  const std::string out = succeeds(
+      folder, "render --points '" VOROCL_SAMPLES
+              "/cities-5000.csv' --width 360 --bounds=-180,-90,180,90 --y-up --method jfa+1 -o a.png "
+              "--labels a.npy --edges --points-overlay --color distance --palette turbo");
   BOOST_TEST(out.substr(out.find_last_of(' ') + 1) == "a.png\n");
   BOOST_TEST((folder.names() == std::set<std::string>{"a.png", "a.npy"}));
   BOOST_TEST(cv::imread(folder / "a.png").size() == cv::Size(360, 180));

@@ -23,7 +23,7 @@ expect "devices" d
 expect "--check" devices --c
 expect "--resume" tiles --res
 expect "jfa jfa+1 jfa+2" render --method j
-expect "euclidean manhattan" render --metric ""
+expect "euclidean manhattan great-circle" render --metric ""
 expect "viridis viridis_r" render --metric manhattan --palette v
 expect "distance" render --color d
 expect "column:" render --color c

@@ -37,15 +37,14 @@ std::vector<std::pair<double, double>> ring_of(const json& feature) {
 
 BOOST_AUTO_TEST_CASE(cities_fill_the_map) {
   const TemporaryFolder folder;
-  const json result = json::parse(succeeds(
-      folder,
-      "cells --exact --points '" VOROCL_SAMPLES
-      "/cities-5000.csv' --bounds 0,0,360,180 --cells c.csv --adjacency a.csv --polygons p.geojson --json"));
+  const json result = json::parse(succeeds(folder, "cells --exact --points '" VOROCL_SAMPLES
+                                                   "/cities-5000.csv' --bounds=-180,-90,180,90 --cells c.csv "
+                                                   "--adjacency a.csv --polygons p.geojson --json"));
   BOOST_TEST(result.at("cells") == 5000);
   BOOST_TEST(result.at("area").get<double>() == 64800, boost::test_tools::tolerance(rounding));
   BOOST_TEST(result.at("not_mutual") == 0);
   BOOST_TEST(result.at("uncertified") == 0);
-  BOOST_TEST(result.at("rectangle") == json({0.0, 0.0, 360.0, 180.0}));
+  BOOST_TEST(result.at("rectangle") == json({-180.0, -90.0, 180.0, 90.0}));
   const Table cells = read_table(folder / "c.csv"), pairs = read_table(folder / "a.csv");
   BOOST_TEST(cells.header ==
              "id,x,y,area,centroid_x,centroid_y,left,top,right,bottom,perimeter,neighbours,largest_distance,"

@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "app/sources/random_seeds.hpp"
+#include "app/terminal/console.hpp"
 #include "formats/npy.hpp"
 #include "formats/raster_files.hpp"
 #include "run_command.hpp"

@@ -73,9 +73,9 @@ std::vector<Point> clusters(std::size_t count, const char* path) {
   std::vector<Point> points;
   while (points.size() < count && !cities.empty()) {
     const Point city = cities[random() % cities.size()];
-    const double squeezed = std::max(std::abs(std::cos((90 - city.y) * radians)), 0.1);
-    const double x = std::fmod(city.x + normal(random) / squeezed + 360, 360);
-    const double y = std::clamp(city.y + normal(random), 0.0, 179.999);
+    const double squeezed = std::max(std::abs(std::cos(city.y * radians)), 0.1);
+    const double x = std::fmod(city.x + normal(random) / squeezed + 540, 360);
+    const double y = std::clamp(90 - city.y + normal(random), 0.0, 179.999);
     points.push_back({std::floor(x / 360 * side), std::floor(y / 360 * side)});
   }
   return points;

@@ -413,6 +413,34 @@ void cut_exact_cells(const Device& device) {
   }
 }
 
+/// More seeds than a block's list holds.
+void label_globe(const Device& device) {
+  const Grid grid(Axis(20, -180, 180).periodic(), Axis(17, -90, 90));
+  std::vector<Point> points;
+  for (int i = 0; i < 150; ++i) points.push_back({std::fmod(i * 222.5, 360), 89 - i * 1.19});
+  Diagram diagram(device, grid);
+  Field<float> distances;
+  exact_diagram(Seeds(device, grid, points), diagram, {Metric::great_circle});
+  distance_field(diagram, distances);
+  const auto direction = [](const Point& point) {
+    const double degree = std::acos(-1.0) / 180, north = std::cos(point.y * degree);
+    return Point{north * std::cos(point.x * degree), north * std::sin(point.x * degree),
+                 std::sin(point.y * degree)};
+  };
+  const std::vector<float> found = distances.read();
+  for (std::size_t pixel = 0; pixel < found.size(); ++pixel) {
+    const Point p = direction(
+        grid.point({static_cast<double>(pixel % 20) + 0.5, static_cast<double>(pixel / 20) + 0.5, 0.5}));
+    double most = -1;
+    for (const Point& point : points) {
+      const Point v = direction(point);
+      most = std::max(most, p.x * v.x + p.y * v.y + p.z * v.z);
+    }
+    if (std::abs(6371.0088 * std::acos(most) - static_cast<double>(found[pixel])) > 0.01)
+      throw Error("the globe is wrong");
+  }
+}
+
 }  // namespace
 
 int main() {
@@ -447,6 +475,7 @@ int main() {
   make_volumes(for_volumes, Grid(Axis(18).periodic(), Axis(11).periodic().spaced(2), Axis(5).periodic()));
   transform_images(for_volumes);
   cut_exact_cells(device);
+  label_globe(for_volumes);
   const std::set<std::string> kernels = kernels_in_the_sources(device);
   std::size_t missing = 0;
   for (const std::string& name : kernels) {

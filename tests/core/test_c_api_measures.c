@@ -269,6 +269,26 @@ static void test_failures(const vorocl_device* device, const vorocl_diagram* dia
   vorocl_adjacency_free(NULL);
 }
 
+/* Columns are longitudes and rows are latitudes. */
+static void test_globe(const vorocl_seeds* seeds, vorocl_diagram* diagram) {
+  const double radians = 3.14159265358979323846 / 180, radius = 6371.0088;
+  vorocl_cell_row rows[seed_count];
+  vorocl_metric metric = VOROCL_EUCLIDEAN;
+  size_t count = 0;
+  double area = 0;
+  FAILS(run("jfa", seeds, diagram, VOROCL_GREAT_CIRCLE), VOROCL_BAD_ARGUMENT, "great circles");
+  OK(run("exact", seeds, diagram, VOROCL_GREAT_CIRCLE));
+  OK(vorocl_diagram_metric(diagram, &metric));
+  CHECK(metric == VOROCL_GREAT_CIRCLE);
+  OK(vorocl_cell_table(diagram, NULL, 0, &count));
+  CHECK(count == seed_count - 1); /* one is absent */
+  OK(vorocl_cell_table(diagram, rows, seed_count, &count));
+  for (size_t i = 0; i < count; ++i) area += rows[i].area;
+  CHECK(rows[0].id == 0 && rows[0].touches_border == 1 && rows[0].neighbours > 0 && rows[6].id == 7);
+  CHECK(fabs(area / (radius * radius * width * radians * sin(height * radians)) - 1) < 1e-9);
+  FAILS(vorocl_cell_table(diagram, NULL, 1, &count), VOROCL_NULL_ARGUMENT, "rows");
+}
+
 int main(void) {
   vorocl_device* device = NULL;
   vorocl_seeds* seeds = NULL;
@@ -283,6 +303,7 @@ int main(void) {
   test_shapes(device, seeds, diagram);
   test_adjacency(device, diagram);
   test_failures(device, diagram);
+  test_globe(seeds, diagram);
   vorocl_diagram_free(diagram);
   vorocl_seeds_free(seeds);
   vorocl_device_free(device);

@@ -21,7 +21,7 @@ inline Pixel pixel_in(const Grid& grid, double x, double y, double width, double
   return {along(x, width, grid.width()), along(y, height, grid.height())};
 }
 
-/// The world's cities, from degrees (x in 0 to 360, y in 0 to 180) to the grid.
+/// The world's cities, from longitudes and latitudes to a grid of all of them, the northern ones first.
 inline std::vector<Pixel> cities(const Grid& grid) {
   std::ifstream file(VOROCL_SAMPLES "/cities-5000.csv");
   std::string line;
@@ -29,7 +29,8 @@ inline std::vector<Pixel> cities(const Grid& grid) {
   std::vector<Pixel> pixels;
   for (double x = 0, y = 0; std::getline(file, line);) {
     BOOST_TEST_REQUIRE(std::sscanf(line.c_str(), "%lf,%lf", &x, &y) == 2);
-    pixels.push_back(pixel_in(grid, x, y, 360, 180));
+    const Axis columns(grid.width(), -180, 180), rows = Axis(grid.height(), -90, 90).reversed();
+    pixels.push_back({static_cast<int>(columns.pixel(x)), static_cast<int>(rows.pixel(y))});
   }
   BOOST_TEST_REQUIRE(pixels.size() == 5000);
   return pixels;

@@ -105,9 +105,11 @@ inline std::string to_string(Metric metric) {
     case Metric::euclidean:
       return "euclidean";
     case Metric::manhattan:
+      return "manhattan";
+    case Metric::great_circle:
       break;
   }
-  return "manhattan";
+  return "great-circle";
 }
 
 /// 64-bit FNV-1a (Fowler, Noll, Vo) of whole numbers, byte by byte from the lowest one, and of text.

@@ -113,6 +113,8 @@ GroundTruth::GroundTruth(const Grid& grid, const std::vector<std::optional<Point
     case Metric::manhattan:
       find_all(Tree<nanoflann::L1_Adaptor>(cloud));
       break;
+    case Metric::great_circle:  // which commands that compare do not take
+      break;
   }
 }
 

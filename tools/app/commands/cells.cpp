@@ -32,11 +32,11 @@ struct CellsFiles {
   FileRequest labels = {labels_kind(), ""};
   FileRequest polygons = {polygons_kind(), ""};  // of exact cells
 
-  /// Of a plane, or of a volume, which has no borders.
-  std::vector<FileRequest> of(bool is_volume) const {
+  /// Of a plane or the globe, or of a volume, which has no borders.
+  std::vector<FileRequest> of(CellsOf grid) const {
     std::vector<FileRequest> files = {cells, adjacency, distance, border, labels};
-    if (is_volume) files.erase(files.end() - 2);
-    for (FileRequest& file : files) file = of_grid(file, is_volume);
+    if (grid == CellsOf::volumes) files.erase(files.end() - 2);
+    for (FileRequest& file : files) file = of_grid(file, grid);
     return files;
   }
 };
@@ -53,7 +53,8 @@ struct CellsOptions {
 
   bool is_volume() const { return seeds.is_volume(); }
   std::vector<FileRequest> requests() const {
-    return exact ? std::vector{files.cells, files.adjacency, files.polygons} : files.of(is_volume());
+    if (exact) return {files.cells, files.adjacency, files.polygons};
+    return files.of(is_volume() ? CellsOf::volumes : seeds.on_globe ? CellsOf::globe : CellsOf::planes);
   }
 };
 
@@ -207,7 +208,7 @@ void add_cells(CommandLine& line) {
   add_snap_option(command, options->seeds);
   add_units_option(command, options->seeds);
   add_method_option(command, options->method, "How to make the diagram");
-  add_method_options(command, options->method_options);
+  add_method_options(command, options->method_options, Globe::yes);
   add_device_option(command, options->device);
   command.begin_section(files_to_write);
   CellsFiles& files = options->files;
@@ -228,6 +229,7 @@ void add_cells(CommandLine& line) {
   add_file_option(command, files.polygons).needs(exact);
   add_weight_options(command, options->seeds, exact);
   command.set_work([command, options] {
+    options->seeds.on_globe = options->method_options.metric == Metric::great_circle;
     std::vector<std::string> paths;
     for (const FileRequest& request : options->requests()) paths.push_back(request.path);
     check_crs(options->seeds.crs, paths);

@@ -148,7 +148,7 @@ void run(const RenderOptions& options) {
 void prepare_volume(const Command& command, RenderOptions& options) {
   if (command.has("--waves")) refuse_in_volumes("--waves");
   check_volume_method(options.method, options.method_options.metric);
-  options.labels = of_grid(options.labels, true);
+  options.labels = of_grid(options.labels, CellsOf::volumes);
 }
 
 /// Throws UsageError for options that planes do not have.
@@ -168,7 +168,7 @@ void add_render(CommandLine& line) {
   add_snap_option(command, options->seeds);
   add_units_option(command, options->seeds);
   add_method_option(command, options->method, "How to make the diagram");
-  add_method_options(command, options->method_options);
+  add_method_options(command, options->method_options, Globe::yes);
   add_device_option(command, options->device);
   command.begin_section(files_to_write);
   command.add("-o", options->picture_path, "Picture to write: .png, .jpg, .bmp or .tif")
@@ -187,6 +187,7 @@ void add_render(CommandLine& line) {
   command.set_work([command, options] {
     if (!options->draws()) refuse_picture_options(command, "-o or --waves");
     check_method_options(command, {options->method}, options->method_options);
+    options->seeds.on_globe = options->method_options.metric == Metric::great_circle;
     if (options->picture.stamp && options->waves_pattern.empty() && options->seeds.trajectory.empty()) {
       throw UsageError("--stamp needs frames: give --trajectory, or --waves");
     }

@@ -325,7 +325,8 @@ void add_simulate(CommandLine& line) {
     if (options->output.picture_path.empty()) refuse_picture_options(command, "-o");
     check_method_options(command, {options->method}, options->method_options);
     options->seeds.is_volume() ? prepare_volumes(command, *options) : prepare_planes(*options);
-    for (FileRequest& request : options->output.files) request = of_grid(request, options->seeds.is_volume());
+    for (FileRequest& request : options->output.files)
+      request = of_grid(request, options->seeds.is_volume() ? CellsOf::volumes : CellsOf::planes);
     run(*options);
   });
 }

@@ -7,7 +7,7 @@
 namespace vorocl::command {
 
 void check_volume_method(const Method& method, Metric metric) {
-  if (method.exact && metric == Metric::manhattan) {
+  if (method.exact && metric != Metric::euclidean) {
     throw UsageError(
         "exact diagrams of volumes are Euclidean; of methods that make volumes jump flooding takes --metric "
         "manhattan");

@@ -6,9 +6,16 @@
 
 namespace vorocl::command {
 
-Option add_metric_option(Command& command, Metric& metric) {
-  const Choices<Metric> metrics = {{"euclidean", Metric::euclidean}, {"manhattan", Metric::manhattan}};
-  return command.add_choice("--metric", metric, metrics, "Distance").default_text(to_string(metric));
+Option add_metric_option(Command& command, Metric& metric, Globe globe) {
+  Choices<Metric> metrics = {{"euclidean", Metric::euclidean}, {"manhattan", Metric::manhattan}};
+  std::string about = "Distance";
+  if (globe == Globe::yes) {
+    metrics.emplace_back("great-circle", Metric::great_circle);
+    about +=
+        "; great-circle: on the globe, of longitudes and latitudes in degrees, north up unless --y-down, in "
+        "kilometres";
+  }
+  return command.add_choice("--metric", metric, metrics, about).default_text(to_string(metric));
 }
 
 Option add_device_option(Command& command, std::string& request) {
@@ -35,8 +42,8 @@ void add_method_option(Command& command, Method& method, const std::string& abou
   command.add_choice("--method", method, method_choices(), about).default_text(method.name);
 }
 
-void add_method_options(Command& command, MethodOptions& options) {
-  add_metric_option(command, options.metric);
+void add_method_options(Command& command, MethodOptions& options, Globe globe) {
+  add_metric_option(command, options.metric, globe);
   command.begin_section("Flooding, for its study");
   const Choices<std::optional<NeighbourhoodMix>> neighbourhoods = {
       {"moore", NeighbourhoodMix::moore},

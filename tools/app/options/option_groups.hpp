@@ -15,7 +15,9 @@
 
 namespace vorocl::command {
 
-Option add_metric_option(Command& command, Metric& metric);
+/// Whether the command takes great circles.
+enum class Globe { no, yes };
+Option add_metric_option(Command& command, Metric& metric, Globe globe = Globe::no);
 Option add_device_option(Command& command, std::string& request);
 Option add_json_option(Command& command, bool& json);
 
@@ -67,7 +69,7 @@ Choices<Method> method_choices();
 void add_method_option(Command& command, Method& method, const std::string& about);
 
 /// Adds --metric, --neighbourhood and the waves of djfa.
-void add_method_options(Command& command, MethodOptions& options);
+void add_method_options(Command& command, MethodOptions& options, Globe globe = Globe::no);
 
 /// Throws UsageError for options that only djfa has, if none of the methods is djfa.
 void check_method_options(const Command& command, const std::vector<Method>& methods,

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <opencv2/core.hpp>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -33,12 +34,14 @@ class CellRow {
       : measures_(measures), view_(measures.view()), label_(label) {}
 
   double id() const { return measures_.id_of(label_); }
-  double x() const { return x_at(measures_.seeds()[label_]->x); }
-  double y() const { return y_at(measures_.seeds()[label_]->y); }
+  double x() const { return is_on_globe() ? of_globe().seed.x : x_at(measures_.seeds()[label_]->x); }
+  double y() const { return is_on_globe() ? of_globe().seed.y : y_at(measures_.seeds()[label_]->y); }
   double z() const { return z_at(measures_.seeds()[label_]->z); }
-  double area() const { return view_.units.area(measures_.pixels()[label_]); }
-  double centroid_x() const { return if_full(x_at(centroid().x)); }
-  double centroid_y() const { return if_full(y_at(centroid().y)); }
+  double area() const {
+    return is_on_globe() ? of_globe().area : view_.units.area(measures_.pixels()[label_]);
+  }
+  double centroid_x() const { return if_full(is_on_globe() ? of_globe().centroid.x : x_at(centroid().x)); }
+  double centroid_y() const { return if_full(is_on_globe() ? of_globe().centroid.y : y_at(centroid().y)); }
   double centroid_z() const { return if_full(z_at(centroid().z)); }
   double left() const { return if_full(x_at(shape().left)); }
   double top() const { return if_full(y_at(shape().top)); }
@@ -49,12 +52,16 @@ class CellRow {
   double perimeter() const { return view_.units.border(measures_.perimeters()[label_]); }
   double neighbours() const { return measures_.neighbours()[label_]; }
   double largest_distance() const { return if_full(view_.units.length(measures_.largest_distance(label_))); }
-  double touches_border() const { return shape().touches_border ? 1 : 0; }
+  double touches_border() const {
+    return (is_on_globe() ? of_globe().touches_border : shape().touches_border) ? 1 : 0;
+  }
 
  private:
   double x_at(double of_diagram) const { return view_.units.x(of_diagram + view_.x); }
   double y_at(double of_diagram) const { return view_.units.y(of_diagram + view_.y); }
   double z_at(double of_diagram) const { return view_.units.z(of_diagram); }
+  bool is_on_globe() const { return measures_.is_on_globe(); }
+  const vorocl::CellRow& of_globe() const { return measures_.on_globe()[label_]; }
   Point centroid() const { return measures_.sums()[label_].centroid(); }
   const CellShape& shape() const { return measures_.shapes()[label_]; }
   double if_full(double value) const { return measures_.pixels()[label_] > 0 ? value : RowText::unknown; }
@@ -116,9 +123,16 @@ template <typename T, const std::vector<T>& (Measures::*all)()>
 const void* entry_of(Measures& measures, std::uint32_t label) {
   return (measures.*all)().data() + label;
 }
-constexpr Source seed = entry_of<std::optional<Point>, &Measures::seeds>,
-                 pixels = entry_of<std::uint32_t, &Measures::pixels>,
-                 sums = entry_of<CellSums, &Measures::sums>, shape = entry_of<CellShape, &Measures::shapes>,
+/// The same of what has its place in on_globe() there.
+template <typename T, const std::vector<T>& (Measures::*all)()>
+const void* entry_of_plane(Measures& measures, std::uint32_t label) {
+  return measures.is_on_globe() ? entry_of<vorocl::CellRow, &Measures::on_globe>(measures, label)
+                                : entry_of<T, all>(measures, label);
+}
+constexpr Source seed = entry_of_plane<std::optional<Point>, &Measures::seeds>,
+                 pixels = entry_of_plane<std::uint32_t, &Measures::pixels>,
+                 sums = entry_of_plane<CellSums, &Measures::sums>,
+                 shape = entry_of_plane<CellShape, &Measures::shapes>,
                  perimeter = entry_of<std::uint32_t, &Measures::perimeters>,
                  neighbours = entry_of<std::uint32_t, &Measures::neighbours>;
 
@@ -271,17 +285,24 @@ const FileKind& labels_kind() {
 std::vector<std::string> cell_columns(CellsOf cells) {
   std::vector<std::string> names;
   for (const CellColumn& column : all_cell_columns()) {
-    if (cells == CellsOf::both || column.of == CellsOf::both || column.of == cells)
+    if (cells == CellsOf::globe) {  // without what is in pixels
+      const std::set<std::string> none = {"left", "top", "right", "bottom", "perimeter"};
+      if (column.of != CellsOf::volumes && none.count(column.name) == 0) names.push_back(column.name);
+    } else if (cells == CellsOf::both || column.of == CellsOf::both || column.of == cells) {
       names.push_back(column.name);
+    }
   }
   return names;
 }
 
-std::vector<std::string> chosen_columns(const std::vector<std::string>& chosen, bool of_volume) {
-  const std::vector<std::string> all = cell_columns(of_volume ? CellsOf::volumes : CellsOf::planes);
+std::vector<std::string> chosen_columns(const std::vector<std::string>& chosen, CellsOf cells) {
+  const std::vector<std::string> all = cell_columns(cells);
   for (const std::string& name : chosen) {
     if (std::find(all.begin(), all.end(), name) == all.end())
-      throw UsageError("--cell-columns " + name + ": cells of " + (of_volume ? "volumes" : "planes") +
+      throw UsageError("--cell-columns " + name + ": cells of " +
+                       (cells == CellsOf::volumes ? "volumes"
+                        : cells == CellsOf::globe ? "the globe"
+                                                  : "planes") +
                        " have no such column, but " + to_csv(all));
   }
   return chosen.empty() ? all : chosen;
@@ -342,10 +363,11 @@ const FileKind& polygons_kind() {
   return kind;
 }
 
-FileRequest of_grid(FileRequest request, bool is_volume) {
+FileRequest of_grid(FileRequest request, CellsOf cells) {
+  const bool is_volume = cells == CellsOf::volumes;
   FileKind& kind = request.kind;
   if (kind.table() != nullptr && kind.table()->of_cells) {
-    kind = cells_kind(chosen_columns(request.columns, is_volume));
+    kind = cells_kind(chosen_columns(request.columns, cells));
   } else if (is_volume && kind.table() != nullptr) {
     std::get<TableKind>(kind.content).columns = {"a", "b", "area"};
   } else if (is_volume) {
@@ -359,7 +381,7 @@ FileRequest of_exact_cells(FileRequest request, bool is_volume) {
   if (kind.table() == nullptr) {
     check_polygons(request.path, is_volume);
   } else if (kind.table()->of_cells) {
-    return of_grid(request, is_volume);
+    return of_grid(request, is_volume ? CellsOf::volumes : CellsOf::planes);
   } else {
     const std::vector<std::string> of_faces = {"a", "b", "area", "image_x", "image_y", "image_z"},
                                    of_edges = {"a", "b", "length", "midpoint_x", "midpoint_y"};

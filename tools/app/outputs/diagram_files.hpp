@@ -40,11 +40,11 @@ struct FileKind {
 
 /// Labels by id: .npy, .tif or .vti.
 const FileKind& labels_kind();
-enum class CellsOf { planes, volumes, both };
+enum class CellsOf { planes, volumes, both, globe };
 /// The columns that a table of such cells can have, in their order.
 std::vector<std::string> cell_columns(CellsOf cells);
 /// Those that were chosen, or all. Throws UsageError for one that such cells do not have.
-std::vector<std::string> chosen_columns(const std::vector<std::string>& chosen, bool of_volume);
+std::vector<std::string> chosen_columns(const std::vector<std::string>& chosen, CellsOf cells);
 /// One row per cell with these of the columns, one row per pair of cells that touch: .csv. The manual page
 /// explains the columns.
 FileKind cells_kind(const std::vector<std::string>& columns = cell_columns(CellsOf::planes));
@@ -67,9 +67,9 @@ struct FileRequest {
   bool is_long_table() const { return kind.table() != nullptr && path.find('%') == std::string::npos; }
 };
 
-/// The same of a plane or a volume, with its formats and columns. Borders are of planes alone. Throws as
-/// chosen_columns().
-FileRequest of_grid(FileRequest request, bool is_volume);
+/// The same of a plane, a volume or the globe, with its formats and columns. Borders are of planes alone.
+/// Throws as chosen_columns().
+FileRequest of_grid(FileRequest request, CellsOf cells);
 
 /// The same of exact cells: tables of them and of the edges or faces between two, a <= b, and polygons. A
 /// pair has the middle of its edge, or the image of b behind its face, of the points as rows of cells have

@@ -171,9 +171,35 @@ std::size_t Measures::vertices() {
   return buffers_.vertices.count();
 }
 
+const std::vector<vorocl::CellRow>& Measures::on_globe() {
+  return once(on_globe_, [&] {
+    std::vector<vorocl::CellRow> cells(pixels().size());
+    for (const vorocl::CellRow& cell : cell_table(diagram())) cells[cell.id] = cell;
+    farthest_on_globe_.assign(cells.size(), 0);
+    for (std::size_t pixel = 0; pixel < labels().size(); ++pixel) {
+      if (labels()[pixel] >= cells.size()) continue;  // none
+      double& farthest = farthest_on_globe_[labels()[pixel]];
+      farthest = std::max(farthest, static_cast<double>(distances()[pixel]));
+    }
+    return cells;
+  });
+}
+
 const CellStatistics& Measures::statistics() {
   return once(statistics_, [&] {
     CellStatistics statistics = statistics_result().read();
+    if (is_on_globe()) {
+      double sum = 0, squares = 0;
+      for (const double area : areas()) {
+        sum += area;
+        squares += area * area;
+      }
+      const auto cells = static_cast<double>(std::max<std::size_t>(statistics.cells, 1));
+      statistics.mean_area = sum / cells;
+      statistics.area_deviation =
+          std::sqrt(std::max(squares / cells - statistics.mean_area * statistics.mean_area, 0.0));
+      return statistics;
+    }
     statistics.mean_area = view_.units.area(statistics.mean_area);
     statistics.area_deviation = view_.units.area(statistics.area_deviation);
     return statistics;
@@ -216,6 +242,10 @@ const std::vector<std::uint32_t>& Measures::labels_in_picture() {
 std::vector<double> Measures::areas() {
   std::vector<double> areas;
   areas.reserve(pixels().size());
+  if (is_on_globe()) {
+    for (const vorocl::CellRow& cell : on_globe()) areas.push_back(cell.area);
+    return areas;
+  }
   for (const std::uint32_t pixels_of_cell : pixels()) areas.push_back(view_.units.area(pixels_of_cell));
   return areas;
 }

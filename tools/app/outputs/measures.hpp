@@ -93,8 +93,13 @@ class Measures {
   const std::vector<CellSums>& sums();
   const std::vector<CellShape>& shapes();
 
+  /// On the globe.
+  bool is_on_globe() const { return metric_ == Metric::great_circle; }
+  const std::vector<vorocl::CellRow>& on_globe();
+
   /// How far the farthest pixel of a cell is from its seed.
   double largest_distance(std::size_t label) {
+    if (is_on_globe()) return farthest_on_globe_.at(label);
     const double distance = shapes()[label].largest_distance;
     return metric_ == Metric::euclidean ? std::sqrt(distance) : distance;
   }
@@ -167,6 +172,8 @@ class Measures {
   std::optional<std::vector<CellShape>> shapes_;
   std::optional<std::vector<CellPair>> pairs_;
   std::optional<CellStatistics> statistics_;
+  std::optional<std::vector<vorocl::CellRow>> on_globe_;
+  std::vector<double> farthest_on_globe_;
 };
 
 /// Throws UsageError for a distance where lengths have no scale in the data.

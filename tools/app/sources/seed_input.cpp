@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <utility>
 #include <vector>
 
@@ -60,6 +61,33 @@ Input plane_from_points(const SeedOptions& options) {
             read.ids,
             read.values,
             mapped.is_window(),
+            {read.kept_names, read.kept}};
+  } catch (const Error& error) {
+    throw Error(options.points + ": " + error.what());
+  }
+}
+
+/// Points as they are, on a grid of degrees.
+Input globe_from_points(const SeedOptions& options) {
+  CsvPoints read = read_points(options);
+  try {
+    const Bounds bounds = options.bounds.value_or(Bounds{-180, -90, 180, 90});
+    const bool is_whole = bounds.x1 - bounds.x0 == 360;
+    const Size picture = picture_size(options, bounds);
+    const Axis x = data_axis(picture.width(), bounds.x0, bounds.x1, is_whole, true);
+    const Axis y = data_axis(picture.height(), bounds.y0, bounds.y1, false, true);
+    const Grid grid(x, options.y_down ? y : y.reversed());
+    for (Point& point : read.points) {  // so that those beyond 180 degrees are drawn where they are
+      const double shown = point.x - 360 * std::floor((point.x - bounds.x0) / 360);
+      if (shown <= bounds.x1) point.x = shown;
+    }
+    return {{{picture, {bounds, !options.y_down, options.crs}}, grid, 0, 0, 0, 0, Units::of_globe(grid)},
+            [grid, points = read.points, snap = options.snapping()](const Device& device) {
+              return Seeds(device, grid, points, {Outside::count, snap});
+            },
+            read.ids,
+            read.values,
+            false,
             {read.kept_names, read.kept}};
   } catch (const Error& error) {
     throw Error(options.points + ": " + error.what());
@@ -162,6 +190,21 @@ void check_seed_options(const SeedOptions& options, bool needs_size) {
   if (options.domain && periodic_axes(options) == Axes::none) {
     throw UsageError("--domain needs --periodic x, y or xy");
   }
+  if (options.on_globe) {
+    const char* const given = options.domain           ? "--domain"
+                              : options.periodic       ? "--periodic"
+                              : options.outside        ? "--outside"
+                              : options.margin > 0     ? "--margin"
+                              : options.units          ? "--units"
+                              : options.points.empty() ? "seeds without --points"
+                                                       : nullptr;
+    if (given != nullptr) {
+      throw UsageError(
+          std::string("--metric great-circle takes longitudes and latitudes of --points, which go round "
+                      "the globe by themselves and all count: it knows no ") +
+          given);
+    }
+  }
   if (!options.points.empty() || !options.trajectory.empty()) {
     if (options.size || options.width != 0 || !needs_size) return;
     throw UsageError(std::string("--size WxH or --width W is required with ") +
@@ -200,6 +243,7 @@ Input read_input(const SeedOptions& options) {
   if (!options.trajectory.empty()) return *TrajectorySeeds(options, options.frame).next();
   if (is_volume) return read_volume_input(options);
   if (options.random > 0) return plane_at_random(options);
+  if (options.on_globe) return globe_from_points(options);
   return options.mask.empty() ? plane_from_points(options) : plane_from_mask(options);
 }
 

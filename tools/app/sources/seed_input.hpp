@@ -46,6 +46,7 @@ struct SeedOptions {
   std::string value_column;           // whose values are read with the points
   std::string weight_column;          // of exact cells; "": none
   bool are_radii = false;             // weights are squares of that column
+  bool on_globe = false;              // points are longitudes and latitudes: distances are great circles
   std::optional<MeasureUnits> units;  // else those of the data, where there are bounds
   std::string keeps_inside;           // see note_outside()
 

@@ -58,6 +58,14 @@ class Units {
   Units(const Grid& volume, bool has_scale)
       : Units({AxisScale{volume.x()}, AxisScale{volume.y()}, AxisScale{volume.z()}}, has_scale, true) {}
 
+  /// Degrees, of a map; distances are kilometres, and areas those of cells, which Measures has.
+  static Units of_globe(const Grid& map) {
+    Units units({AxisScale{map.x()}, AxisScale{map.y()}, {}}, false, false);
+    units.is_globe_ = units.length_in_data_ = true;
+    units.length_unit_ = "km";
+    return units;
+  }
+
   /// Voxels, and for distances the units by which axes are spaced.
   static Units of_voxels(const Grid& volume) {
     Units units;
@@ -94,7 +102,7 @@ class Units {
   bool are_of_data() const { return area_in_data_; }
 
   /// "data" or "px"; of lengths in a volume whose axes are spaced "spacing 1:1:4".
-  const char* of_area() const { return area_in_data_ ? "data" : "px"; }
+  const char* of_area() const { return is_globe_ ? "km^2" : area_in_data_ ? "data" : "px"; }
   const char* of_length() const { return length_unit_.c_str(); }
 
   /// Whether positions are in data units and lengths are not, for pixels are no squares there.
@@ -117,9 +125,9 @@ class Units {
 
   /// The same as titles have them: "data units^2", "px".
   const char* area_title() const {
-    return area_in_data_ ? (is_volume_ ? "data units^3" : "data units^2") : "px";
+    return is_globe_ ? "km^2" : area_in_data_ ? (is_volume_ ? "data units^3" : "data units^2") : "px";
   }
-  const char* length_title() const { return length_in_data_ ? "data units" : of_length(); }
+  const char* length_title() const { return length_in_data_ && !is_globe_ ? "data units" : of_length(); }
 
  private:
   double behind() const { return area_in_data_ ? 1 : 0; }
@@ -156,7 +164,8 @@ class Units {
 
   AxisScale x_, y_, z_;
   Ratio area_, length_, border_;
-  bool is_volume_ = false, area_in_data_ = false, length_in_data_ = false, border_in_data_ = false;
+  bool is_globe_ = false, is_volume_ = false, area_in_data_ = false, length_in_data_ = false,
+       border_in_data_ = false;
   std::string length_unit_ = "px";
 };
 

@@ -1,0 +1,42 @@
+// Seeds and pixels on the globe, as kernels of great circles take them: see kernels/globe/globe.cl.
+#pragma once
+
+#include "core/seeds_frame.hpp"
+#include "measures/measurement.hpp"
+#include "vorocl/cells.hpp"
+
+namespace vorocl {
+
+constexpr double earth_radius = 6371.0088;  // of the mean sphere, in kilometres
+
+/// The directions of a frame's seeds, and the tree that engines look for them in.
+struct GlobeSeeds {
+  cl::Buffer directions;  // int4 by id: x, y, z, and how far east; zeros of a seed that is absent
+  cl::Buffer places, boxes, levels, ids;
+  cl_uint sites = 0;
+  cl_int top_level = 0;
+};
+
+std::shared_ptr<const GlobeSeeds> seeds_on_globe(const SeedsFrame& frame);
+
+/// The columns and the rows of a window, as kernels take them.
+struct GlobePixels {
+  explicit GlobePixels(const Device& device, const Window& window);
+  cl::Buffer columns, rows;
+};
+
+/// Throws Error unless a grid is one of longitudes and latitudes, in degrees.
+void check_globe(const Grid& grid);
+
+/// The pixels of seeds in a window of such a grid, and which lie outside, for measures that count labels.
+/// Throws Error as check_globe(), and BadPoint for a latitude beyond a pole.
+std::shared_ptr<const Placement> place_on_globe(const Window& window, const PixelGrid& shown,
+                                                const SeedsFrame& frame);
+
+Report exact_diagram_on_globe(Filling& filling, DiagramState& state);
+
+/// The cells of a diagram of great circles: all but their neighbours, of which there is a number for each id.
+std::vector<CellRow> cells_on_globe(const MeasuredDiagram& of, const std::vector<std::uint32_t>& labels,
+                                    const std::vector<std::uint32_t>& neighbours);
+
+}  // namespace vorocl
