@@ -63,26 +63,35 @@ def test_periodic_cells_are_those_of_freud(points, tilt):
 
 
 @pytest.mark.parametrize("tilt", [0.7, (0.5, -0.6, 0.9), (-1.9, 2, 1), (2, 5.5, -3)])
-def test_cells_of_tilted_volumes_are_those_of_freud(places, tilt):
+def test_cells_of_tilted_volumes_are_those_of_scipy(places, tilt):
     sides = np.subtract(BOX[3:], BOX[:3])
     xy, xz, yz = tilt if isinstance(tilt, tuple) else (tilt, 0, 0)
     found = vorocl.exact_cells(places, BOX, periodic=(True,) * 3, tilt=tilt)
     assert found.cells["volume"].sum() == pytest.approx(8, rel=1e-13) and found.cells["certified"].all()
     edges = np.array([(sides[0], 0, 0), (xy, sides[1], 0), (xz, yz, sides[2])])
-    # freud wants its tilts brought to a period: the same lattice.
+    # SciPy knows no period: it gets the images around the box, of the same lattice with tilts of half a side at most.
     short = edges.copy()
     short[2] -= np.round(short[2, 1] / sides[1]) * short[1]
     short[1:, 0] -= np.round(short[1:, 0] / sides[0]) * sides[0]
-    box = freud.box.Box(*sides, xy=short[1, 0] / sides[1], xz=short[2, 0] / sides[2], yz=short[2, 1] / sides[2])
-    voronoi = freud.locality.Voronoi().compute((box, box.wrap(places)))
-    np.testing.assert_allclose(found.cells["volume"], voronoi.volumes, rtol=1e-3)  # freud's are made in floats
-    pairs = found.pairs
-    there = {(min(a, b), max(a, b)) for a, b in voronoi.nlist[:].tolist()}
-    assert there <= edges_of(pairs)
-    left_out = [area for a, b, area in zip(pairs["a"], pairs["b"], pairs["area"]) if (a, b) not in there]
-    assert len(left_out) < 60 and max(left_out) < 1e-3  # freud leaves out small faces
-    image = np.column_stack([pairs["image_" + axis] for axis in "xyz"])
+    counts = np.stack(np.meshgrid(*[np.arange(-3, 4)] * 3, indexing="ij"), axis=-1).reshape(-1, 3)
+    images = places + (counts @ short)[:, None]
+    near = ((images > np.subtract(BOX[:3], 1)) & (images < np.add(BOX[3:], 1))).all(axis=2)
+    itself, row = near & ~counts.any(axis=1)[:, None], np.broadcast_to(np.arange(len(places)), near.shape)
+    images, itself, row = images[near], itself[near], row[near]
+    voronoi = Voronoi(images)
+    ridges = np.vstack([voronoi.ridge_points, voronoi.ridge_points[:, ::-1]])
+    ridges = ridges[itself[ridges[:, 0]]]
+    pairs, image = found.pairs, np.column_stack([found.pairs["image_" + axis] for axis in "xyz"])
     ways = places[pairs["b"]] + image @ edges - places[pairs["a"]]
+
+    def faces(a, b, ways):
+        return set(zip(a.tolist(), b.tolist(), map(tuple, (np.round(ways, 7) + 0.0).tolist())))
+
+    of_scipy = faces(row[ridges[:, 0]], row[ridges[:, 1]], images[ridges[:, 1]] - images[ridges[:, 0]])
+    assert faces(pairs["a"], pairs["b"], ways) | faces(pairs["b"], pairs["a"], -ways) == of_scipy
+    for at in np.flatnonzero(itself)[::20]:
+        vertices = voronoi.vertices[voronoi.regions[voronoi.point_region[at]]]
+        assert found.cells["volume"][row[at]] == pytest.approx(ConvexHull(vertices).volume, rel=1e-8)
     parts = (pairs["area"] / np.linalg.norm(ways, axis=1))[:, None] * ways
     sums = np.zeros((len(places), 3))
     np.add.at(sums, pairs["a"], parts)
