@@ -48,7 +48,8 @@ std::vector<std::optional<Point>> points_on_globe(const SeedsFrame& frame) {
     if (!points[id]) continue;
     if (!frame.is_off_centre) points[id] = frame.grid.point(*points[id]);
     if (std::abs(points[id]->y) > quarter_turn)
-      throw BadPoint(id, *points[id], "is no place on the globe; latitudes, which y is, are from -90 to 90");
+      throw BadPoint(id, *points[id],
+                     "is no place on the globe: y is its latitude, from -90 to 90 degrees, x its longitude");
   }
   return points;
 }
@@ -115,8 +116,7 @@ void check_globe(const Grid& grid) {
     return;
   std::ostringstream text;
   text << "great circles need a grid of longitudes and latitudes in degrees: x no longer than 360, and 360 "
-          "if it is "
-          "periodic, y from -90 to 90 and not periodic; this one shows x from "
+          "if it is periodic, y from -90 to 90 and not periodic; this one shows x from "
        << grid.x().from() << " to " << grid.x().to() << " and y from " << grid.y().from() << " to "
        << grid.y().to() << periodic_text(grid.periodic());
   throw Error(text.str());
