@@ -66,7 +66,10 @@ auto with_host_memory(const Device& device, Function function) {
   try {
     return function();
   } catch (...) {
-    clFinish(device.queue()());
+    try {
+      device.finish();
+    } catch (const Error&) {  // the first error is the one to report
+    }
     throw;
   }
 }

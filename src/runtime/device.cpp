@@ -363,7 +363,13 @@ Device Device::with_tuning(const Tuning& tuning) const {
 }
 
 void Device::finish() const {
-  check(clFinish(queue()()), [&] { return "waiting for " + name(); });
+  const cl_int code = clFinish(queue()());
+  if (code == CL_SUCCESS) return;
+  // Where the wait alone fails, commands go on, and those who hear of it free what these write to.
+  cl::Event behind_all;
+  if (clEnqueueMarkerWithWaitList(queue()(), 0, nullptr, &behind_all()) == CL_SUCCESS)
+    clWaitForEvents(1, &behind_all());
+  check(code, [&] { return "waiting for " + name(); });
 }
 
 void Device::wait_for(const std::vector<cl::Event>& events) const {

@@ -99,10 +99,15 @@ BOOST_AUTO_TEST_CASE(so_are_exact_cells) {
                                  "/lj-melt.lammpstrj --cells cells.csv --polygons p%d.vtp --every 2";
   succeeds(whole, subcommand + " --frames 9");
   succeeds(later, subcommand + frames(5, 9));
-  BOOST_TEST((files_of(later) == std::set<std::string>{"cells.csv", "p6.vtp", "p8.vtp"}));
+  BOOST_TEST((files_of(later) == std::set<std::string>{"cells.csv", "p.pvd", "p6.vtp", "p8.vtp"}));
   for (const char* const file : {"p6.vtp", "p8.vtp"})
     BOOST_TEST((content_of(later / file) == content_of(whole / file)));
   BOOST_TEST((content_of(later / "cells.csv") == rows_from(content_of(whole / "cells.csv"), 5)));
+  // The list is of all files that are there.
+  BOOST_TEST(content_of(later / "p.pvd").find("p4.vtp") == std::string::npos);
+  const std::string list = content_of(whole / "p.pvd");
+  succeeds(whole, subcommand + frames(5, 9));
+  BOOST_TEST(content_of(whole / "p.pvd") == list);
 }
 
 BOOST_AUTO_TEST_CASE(a_run_that_ends_early_says_which_frames_are_left) {
