@@ -103,9 +103,6 @@ struct SeedsFrame {
 
   std::shared_ptr<Placements> placements = nullptr;  // of other windows, and of points
 
-  /// Whether a seed may be absent, as far as the host knows.
-  bool may_lack_some() const { return absent > 0 || counted_there; }
-
   /// The seeds that are there. Waits for the device if it counts them. A bad point is not absent.
   std::size_t alive() const;
 

@@ -80,19 +80,6 @@ inline double as_compared(Metric metric, double pixels) {
   return 0;
 }
 
-/// From the centre of a square to its corners, in half sides.
-inline double to_corner_of_square(Metric metric) {
-  switch (metric) {
-    case Metric::euclidean:
-      return std::sqrt(2.0);
-    case Metric::manhattan:
-      return 2.0;
-    case Metric::great_circle:
-      break;
-  }
-  return 0;
-}
-
 /// The compared distance that a disc of the metric has whose area is pi times these pixels.
 inline double radius_of_area(Metric metric, double pixels) {
   constexpr double half_pi = 1.5707963267948966;
