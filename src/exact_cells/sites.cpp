@@ -135,8 +135,10 @@ std::vector<PeriodCounts> images_of(const Edges& edges) {
   const std::vector<LatticeWay> around = vectors_around(edges);
   const LatticeWay most = most_ways(edges);
   double to_try = 1;
-  for (std::size_t axis = 0; axis < 3; ++axis)
-    if (most[axis] > 0) to_try *= 2 * static_cast<double>(most[axis] / edges[axis][axis]) + 3;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const std::int64_t periods = most[axis] > 0 ? most[axis] / edges[axis][axis] : 0;
+    if (most[axis] > 0) to_try *= 2 * static_cast<double>(periods) + 3;
+  }
   std::vector<std::pair<double, PeriodCounts>> images;
   PeriodCounts counts = {};
   const auto add = [&] {
@@ -169,6 +171,7 @@ std::vector<PeriodCounts> images_of(const Edges& edges) {
   }
   std::sort(images.begin(), images.end());
   std::vector<PeriodCounts> sorted;
+  sorted.reserve(images.size());
   for (const auto& image : images) sorted.push_back(image.second);
   return sorted;
 }

@@ -164,7 +164,7 @@ Report exact_diagram_on_globe(Filling& filling, DiagramState& state) {
     const cl::Event filled = fill(state.device, state.labels, no_label, state.grid.pixels());
     return filling.commit(0, filled, filled);
   }
-  const auto blocks_along = [](int side) { return static_cast<std::size_t>((side - 1) / GLOBE_BLOCK + 1); };
+  const auto blocks_along = [](int side) { return static_cast<std::size_t>(side - 1) / GLOBE_BLOCK + 1; };
   Kernel& kernel = state.kernels.get(without_vectors(state.device), "globe/globe.cl", "label_globe",
                                      state.grid.without_periods());
   // Work-items that do much each: small groups spread them over the compute units of a CPU.
