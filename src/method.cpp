@@ -1,5 +1,6 @@
 #include "vorocl/method.hpp"
 
+#include "runtime/metric.hpp"
 #include "runtime/pixel_grid.hpp"
 #include "vorocl/dynamic_jump_flooding.hpp"
 #include "vorocl/error.hpp"
@@ -115,8 +116,7 @@ const Method& method(std::string_view name) {
 }
 
 void check_options(const Method& method, const MethodOptions& options) {
-  if (!method.exact && options.metric == Metric::great_circle)
-    throw Error("the method " + method.name + " knows no great circles; exact does");
+  if (!method.exact) refuse_great_circles(options.metric, method.name);
   if (!method.continues) refuse_mixed(options);
   if (method.run == run_low_resolution) check_low_resolution(options);
 }

@@ -42,13 +42,13 @@ struct ExactOptions {
 /// By great circles (Metric::great_circle) the grid's x are longitudes and its y latitudes, both in degrees.
 /// It may show a part of the globe, or go round it: as a periodic axis of 360 degrees, so that cells touch
 /// across its ends. Points anywhere on the globe count, whatever their longitude. Directions to seeds and
-/// pixels are rounded once, to 2^-31: no label is farther than the nearest seed by more than 2 cm. Of seeds
-/// at one distance the northern one wins, then the western one from -180 on, then the lowest id. Distances
-/// are kilometres on a sphere of 6371.0088 km, the mean radius, up to 0.6 % beside those on the ellipsoid.
-/// 90 bytes of device memory per seed; the host sorts the seeds. Of measures there are cell_table(), in
-/// square kilometres, cell_statistics(), adjacency(), vertices(), map_labels(), border_mask() and
-/// distance_field() of floats. Throws BadPoint for a latitude beyond a pole, and Error for other grids and
-/// without doubles (cl_khr_fp64). docs/globe.md says how.
+/// pixels are rounded once, to 2^-31: within a quarter of the globe of a seed no label is farther than the
+/// nearest seed by more than 2 cm. Of seeds at one distance the northern one wins, then the western one from
+/// -180 on, then the lowest id. Distances are kilometres on a sphere of 6371.0088 km, the mean radius, up to
+/// 0.6 % beside those on the ellipsoid. 90 bytes of device memory per seed; the host sorts the seeds. Of
+/// measures there are cell_table(), in square kilometres, cell_statistics(), adjacency(), vertices(),
+/// map_labels(), border_mask() and distance_field() of floats. Throws BadPoint for a latitude beyond a pole,
+/// and Error for other grids and without doubles (cl_khr_fp64). docs/globe.md says how.
 ///
 /// In a volume: of several seeds at the least distance the one that comes first by z, then y, then x. 4
 /// bytes of device memory per voxel, the labels, and 34 per seed besides its place. Snapped seeds that stand

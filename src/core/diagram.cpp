@@ -106,8 +106,7 @@ void DiagramState::read(std::uint32_t* to) {
 Filling::Filling(const Seeds& seeds, Diagram& diagram, Metric metric, const char* method)
     : diagram_(Internal::state(diagram)), previous_(std::exchange(diagram_.contents, std::nullopt)) {
   ++*diagram_.fills;
-  if (metric == Metric::great_circle && method != std::string_view("exact"))
-    throw Error("the method " + std::string(method) + " knows no great circles; exact does");
+  if (method != std::string_view("exact")) refuse_great_circles(metric, method);
   next_.metric = checked(metric);
   next_.placement = diagram_.place(seeds, metric);
   next_.seeds = Internal::state(seeds).frame();

@@ -115,8 +115,10 @@ struct ExactCellsState {
 
   template <typename T>
   void send(cl::Buffer& buffer, Upload<T>& upload, std::vector<T>&& values) {
-    if (values.empty()) buffer = cl::Buffer();
-    if (values.empty()) return;
+    if (values.empty()) {
+      buffer = cl::Buffer();
+      return;
+    }
     make_room(buffer, *device, values.size() * sizeof(T));
     upload.start(*device, buffer, std::move(values));
   }

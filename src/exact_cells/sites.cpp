@@ -18,21 +18,19 @@ namespace {
 
 /// What planes and volumes have of their own. The longest side has at most 2^bits steps, half as many in a
 /// tilted box (kernels/exact_cells/polygon.cl and volumes/sides.cl say why). No two places are so far from
-/// each other, squared, as the greatest lag: a cell with it is empty. Sites and boxes that are not there are
-/// `far` away.
+/// each other, squared, as the greatest lag: a cell with it is empty.
 template <std::size_t dimensions>
 struct SiteKind;
 template <>
 struct SiteKind<2> {
   static constexpr int bits = 30, bits_of_curve = 30;
   static constexpr double most_lag = 0x1p62;
-  static constexpr cl_int far = 0;
   static std::uint64_t order(const std::array<std::uint32_t, 2>& at) { return hilbert_order(at[0], at[1]); }
 };
 template <>
 struct SiteKind<3> {
   static constexpr int bits = 40, bits_of_curve = hilbert_bits;
-  static constexpr double most_lag = 0x1p83, far = 1e17;
+  static constexpr double most_lag = 0x1p83;
   static std::uint64_t order(const std::array<std::uint32_t, 3>& at) { return hilbert_order(at); }
 };
 
@@ -136,8 +134,9 @@ std::vector<PeriodCounts> images_of(const Edges& edges) {
   const LatticeWay most = most_ways(edges);
   double to_try = 1;
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    const std::int64_t periods = most[axis] > 0 ? most[axis] / edges[axis][axis] : 0;
-    if (most[axis] > 0) to_try *= 2 * static_cast<double>(periods) + 3;
+    if (most[axis] == 0) continue;
+    const std::int64_t periods = most[axis] / edges[axis][axis];
+    to_try *= 2 * static_cast<double>(periods) + 3;
   }
   std::vector<std::pair<double, PeriodCounts>> images;
   PeriodCounts counts = {};
@@ -273,7 +272,8 @@ void make_tree(SitesOfKind& tree, std::vector<OnCurve>&& order,
                const std::vector<double>& lags) {
   using Number = typename SitesOfKind::Number;
   constexpr std::size_t dimensions = SitesOfKind::dimensions;
-  constexpr Number far = std::is_integral_v<Number> ? 0 : SiteKind<dimensions>::far;
+  // Where sites and boxes are that are not there. Kernels that take whole numbers ask whether they are.
+  constexpr Number far = std::is_integral_v<Number> ? 0 : 1e17;
   const auto lag_of = [&lags](cl_uint id) { return lags.empty() ? 0.0 : lags[id]; };
   sort(order, [&](const OnCurve& p, const OnCurve& q) {
     if (p.order != q.order) return p.order < q.order;

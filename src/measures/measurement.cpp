@@ -84,8 +84,7 @@ MeasuredDiagram cells_of(const Diagram& diagram, OnGlobe on_globe) {
   if (measured.seeds && measured.metric == Metric::great_circle && on_globe == OnGlobe::no) {
     throw Error(
         "a diagram of great circles has no such measure; it has cell_table(), cell_statistics(), "
-        "adjacency(), "
-        "vertices(), map_labels(), border_mask() and distance_field() of floats");
+        "adjacency(), vertices(), map_labels(), border_mask() and distance_field() of floats");
   }
   if (measured.seeds) return measured;
   throw Error(

@@ -94,4 +94,10 @@ inline double radius_of_area(Metric metric, double pixels) {
   return 0;
 }
 
+/// Of methods that flood: throws Error for great circles, which they do not know.
+inline void refuse_great_circles(Metric metric, const std::string& method) {
+  if (metric == Metric::great_circle)
+    throw Error("the method " + method + " knows no great circles; exact does");
+}
+
 }  // namespace vorocl

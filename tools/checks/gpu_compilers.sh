@@ -34,7 +34,8 @@ done
 needs nvidia "$PTXAS" ptxas
 needs intel "$OCLOC" ocloc
 
-# A GPU gets all programs but those of the vector shape of exact diagrams, and of exact diagrams of volumes.
+# A GPU gets all programs but those of the vector shape of exact diagrams, and of exact diagrams of volumes. Exact cells, masks and
+# great circles are not checked.
 kernel_files() {
   grep -lE '^ *(VECTOR_KERNEL|kernel) void' kernels/{core,flooding,measures,motion}/*.cl
   echo kernels/exact/group/diagram.cl
