@@ -351,6 +351,7 @@ BOOST_AUTO_TEST_CASE(what_is_left_out_of_a_plane_is_said) {
   folder.file("p.csv", "x,y\n1,1\n3,3\n5,1\n9,9\n");
   const Result outside = run(folder, "cells --exact --points p.csv --bounds 0,0,4,4 --cells c.csv");
   BOOST_TEST(outside.error.find("2 of 4 points lie outside the bounds 0,0,4,4") != std::string::npos);
+  BOOST_TEST(outside.out.find("\n1 seed outside the rectangle without a cell in it\n") != std::string::npos);
   const Result periodic =
       run(folder, "cells --exact --points p.csv --bounds 0,0,4,4 --periodic xy --cells c.csv");
   BOOST_TEST(periodic.error == "");

@@ -398,6 +398,27 @@ BOOST_AUTO_TEST_CASE(cells_of_tilted_boxes_are_those_of_what_repeats) {
   BOOST_TEST(read_table(folder / "f.csv").rows.size() == 60u);
 }
 
+BOOST_AUTO_TEST_CASE(one_particle_in_a_box_that_is_tilted_in_z_and_a_size_say_that_there_is_a_volume) {
+  const TemporaryFolder folder;
+  const std::string frame = "ITEM: TIMESTEP\n0\nITEM: NUMBER OF ATOMS\n1\nITEM: BOX BOUNDS ",
+                    atom = "\nITEM: ATOMS id x y z\n1 1 1 1\n";
+  folder.file("sheared.dump", frame + "xy xz yz pp pp pp\n0 4 0\n0 5 0\n0 4 1" + atom);
+  folder.file("flat.dump", frame + "pp pp pp\n0 4\n0 4\n0 4" + atom);
+  for (const std::string input : {"simulate sheared", "cells sheared", "cells sheared.dump --size 9x8x7",
+                                  "cells flat.dump --size 9x8x7", "cells flat.dump --size 4x4x4"}) {
+    const std::size_t file = input.find(' ');
+    const bool has_size = input.find("--size") != std::string::npos;
+    succeeds(folder, input.substr(0, file) + " --exact --cells c.csv --cell-columns volume,neighbours" +
+                         " --trajectory" + input.substr(file) + (has_size ? "" : ".dump"));
+    const TableRow cell = read_table(folder / "c.csv").rows.at(0);
+    BOOST_TEST(*cell[cell.size() - 2] == 64);
+    // Its images along the third edge lie a quarter of a side beside it: two of six faces become four.
+    BOOST_TEST(*cell.back() == (input.find("flat") == std::string::npos ? 8 : 6));
+  }
+  refuses(folder, "cells --trajectory sheared.dump --size 9x8x7 --cells c.csv", failure,
+          {"voxels do not know; --exact"});
+}
+
 BOOST_AUTO_TEST_CASE(what_exact_volumes_cannot_be_is_refused_before_the_work) {
   const TemporaryFolder folder;
   folder.file("t.dump", dump_of({{1, 1, 1}, {2, 2, 3}}, 4));
@@ -435,7 +456,7 @@ BOOST_AUTO_TEST_CASE(what_exact_volumes_cannot_be_is_refused_before_the_work) {
             failure, {"tilted.xyz", "frame 0", "tilted", "leave --periodic out"});
     refuses(folder, command + " --exact --trajectory walls.xyz --cells c.csv", failure,
             {"walls.xyz:2", "tilted in z (xz = 1, yz = 0)", "not periodic"});
-    refuses(folder, command + " --exact --trajectory sheared.dump --cells c.csv", failure,
+    refuses(folder, command + " --exact --trajectory sheared.dump --bounds 0,0,4,4 --cells c.csv", failure,
             {"sheared.dump:9", "tilted in z (xz, yz)"});
   }
   refuses(folder, "cells --exact --points flat.csv --columns x,y,z --cells c.csv", failure, {"no column z"});

@@ -131,6 +131,8 @@ void print_exact_result(const CellsOptions& options, const Seeds& seeds, ExactCe
     print("{} without a cell: another one has the same place{}\n", counted(rows.empty_cells(), "seed"),
           rows.input().values.numbers.empty() ? "" : ", or greater weights around it have its cell");
   }
+  const std::size_t outside = seeds.alive() - rows.order().size();
+  if (outside > 0) print("{} outside the rectangle without a cell in it\n", counted(outside, "seed"));
   print("the mean {} is {:.6g}, with a deviation of {:.6g}\n", measure, rows.mean_area(),
         rows.area_deviation());
   print("{} between cells\n", counted(rows.pair_count(), is_volume ? "face" : "edge"));

@@ -19,14 +19,16 @@ namespace vorocl::command {
 
 namespace {
 
-/// Whether a file has places of a volume. What can be read once alone has none.
+/// Whether a file has places of a volume, or a box that is tilted in z. What can be read once alone has none.
 bool has_depth(const SeedOptions& options) {
   std::error_code code;
   const std::string& path = options.points + options.trajectory;  // one of these
   if (!std::filesystem::is_regular_file(path, code)) return false;
   Frame frame;
-  if (!options.trajectory.empty())
-    return open_trajectory(path, "", Wanted::depth)->next(frame) && frame.z_span > 0;
+  if (!options.trajectory.empty()) {
+    return open_trajectory(path, "", Wanted::depth)->next(frame) &&
+           (frame.z_span > 0 || (frame.box && (frame.box->xz != 0 || frame.box->yz != 0)));
+  }
   return extension_of(path) == ".npy" && holds_points_of_volume(path);
 }
 
@@ -41,6 +43,12 @@ bool is_volume(const SeedOptions& options) {
   if (!options.weight_column.empty() && options.points.empty() && options.trajectory.empty())
     throw UsageError("--weights and --radius need --points or --trajectory");
   return is_volume;
+}
+
+/// A size says that there is a volume, and nothing of voxels, but of seeds in pixels.
+SeedOptions without_voxels(SeedOptions options) {
+  if (options.random == 0) options.size.reset();
+  return options;
 }
 
 /// `repeats` is what does along the periodic axes, with a tilt: bounds that are given must be the same there.
@@ -143,7 +151,9 @@ Input exact_input_from_trajectory(const SeedOptions& options) {
 }  // namespace
 
 ExactFrames::ExactFrames(const SeedOptions& options)
-    : options_(options), is_volume_(command::is_volume(options)), reader_(options, is_volume_) {}
+    : options_(without_voxels(options)),
+      is_volume_(command::is_volume(options)),
+      reader_(options_, is_volume_) {}
 
 std::optional<Input> ExactFrames::next() { return skip() ? std::optional(take()) : std::nullopt; }
 
@@ -169,9 +179,7 @@ Input ExactFrames::take() {
 Input read_exact_input(const SeedOptions& options) {
   if (!options.trajectory.empty()) return exact_input_from_trajectory(options);
   if (is_volume(options)) {
-    SeedOptions without_voxels = options;
-    if (options.random == 0) without_voxels.size.reset();
-    Input input = read_volume_input(without_voxels);
+    Input input = read_volume_input(without_voxels(options));
     try {
       make_weights(options, input);
     } catch (const Error& error) {

@@ -16,14 +16,14 @@ namespace vorocl::command {
 ///
 /// It is a volume if an option says so that planes do not have (bounds of six numbers, z among the columns or
 /// the periodic axes, a depth), or if neither bounds nor columns say that it is a plane, and the points are
-/// an array of three columns, or the particles of the first frame do not lie in a plane.
+/// an array of three columns, or the particles of the first frame do not lie in a plane, or its box is tilted
+/// in z.
 Input read_exact_input(const SeedOptions& options);
 
 /// The frames of a trajectory as read_exact_input() has one, one after the other.
 class ExactFrames {
  public:
-  /// Checks the options, and keeps a reference to them. Throws UsageError, and Error, as the other functions
-  /// do, if the file is bad.
+  /// Checks the options. Throws UsageError, and Error, as the other functions do, if the file is bad.
   explicit ExactFrames(const SeedOptions& options);
 
   /// The next frame; none after the last.
@@ -45,7 +45,7 @@ class ExactFrames {
   bool is_volume() const { return is_volume_; }
 
  private:
-  const SeedOptions& options_;
+  const SeedOptions options_;
   bool is_volume_;
   FrameReader reader_;
   bool is_first_ = true;  // of those that next() gives

@@ -96,8 +96,8 @@ SimulationBox::SimulationBox(const LineReader& lines, const BoxAxis& x, const Bo
   if (x.periodic() && y.periodic()) return;
   if (!is_negligible(tilt, x.length())) {
     throw lines.error(
-        "the box is tilted but not periodic in both x and y; only a periodic one can be drawn as a "
-        "rectangle");
+        "the box is tilted but not periodic in both x and y; only a periodic one has images that are "
+        "shifted");
   }
   tilt_ = box_.tilt = 0;
 }
