@@ -25,6 +25,7 @@ struct ImageInfo {
   bool is_white_zero = false;                    ///< 0 is shown as white
   bool is_lossy = false;                         ///< packed so that numbers are nearly what they were
   int pages = 1;                                 ///< of which the first is read
+  std::optional<GeoTags> geotags = std::nullopt;
 };
 
 /// An open file. Colours are red, green and blue; TIFF files have the numbers that are stored, whatever these

@@ -27,4 +27,18 @@ std::string sides_of(const Grid& grid) {
   return grid.is_volume() ? slice + " x " + std::to_string(grid.depth()) : slice;
 }
 
+std::optional<Georeference> georeference_of(const std::optional<GeoTags>& mask, std::int64_t x,
+                                            std::int64_t y) {
+  if (!mask) return std::nullopt;
+  Georeference result;
+  GeoTags& tags = result.tags.emplace(*mask);
+  const double offset[] = {static_cast<double>(x), static_cast<double>(y)};
+  for (std::size_t i = 0; i < tags.tie_points.size(); ++i)
+    if (i % 6 < 2) tags.tie_points[i] -= offset[i % 6];
+  for (std::size_t row = 0; row + 4 <= tags.transformation.size(); row += 4)
+    for (const std::size_t axis : {0, 1})
+      tags.transformation[row + 3] += offset[axis] * tags.transformation[row + axis];
+  return result;
+}
+
 }  // namespace vorocl::command

@@ -80,12 +80,25 @@ struct Crs {
   std::string name;
 };
 
+/// What a GeoTIFF says of where its pixels lie, tag by tag.
+struct GeoTags {
+  std::vector<double> scale, tie_points, transformation;  ///< 3, 6 for each point, 16, or none
+  std::vector<std::uint16_t> keys;                        ///< of the coordinate reference system
+  std::vector<double> key_doubles;
+  std::string key_texts;
+};
+
 /// The rectangle that an image shows, in data units, and whether its y axis points up.
 struct Georeference {
   Bounds bounds;
   bool y_up = false;
   std::optional<Crs> crs;
+  std::optional<GeoTags> tags = std::nullopt;  ///< of the mask's file, which .tif files have instead
 };
+
+/// Where the pixels of a mask's file lie from this pixel on, if it says so.
+std::optional<Georeference> georeference_of(const std::optional<GeoTags>& mask, std::int64_t x = 0,
+                                            std::int64_t y = 0);
 
 /// The pixels of an image file or the voxels of a volume's, and where they lie in the data; without that
 /// these are in pixels.

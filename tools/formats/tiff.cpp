@@ -61,8 +61,13 @@ T field(const File& file, ttag_t tag) {
 ImageHeader header_of(const File& file) {
   const auto samples = field<std::uint16_t>(file, TIFFTAG_SAMPLESPERPIXEL);
   const std::uint64_t bits = std::uint64_t{field<std::uint16_t>(file, TIFFTAG_BITSPERSAMPLE)} * samples;
-  return {field<std::uint32_t>(file, TIFFTAG_IMAGEWIDTH), field<std::uint32_t>(file, TIFFTAG_IMAGELENGTH),
-          bits, field<std::uint16_t>(file, TIFFTAG_COMPRESSION) != COMPRESSION_NONE};
+  return {field<std::uint32_t>(file, TIFFTAG_IMAGEWIDTH),
+          field<std::uint32_t>(file, TIFFTAG_IMAGELENGTH),
+          bits,
+          field<std::uint16_t>(file, TIFFTAG_COMPRESSION) != COMPRESSION_NONE,
+          false,
+          false,
+          read_geotags(file.get())};
 }
 
 /// Of the numbers that samples are; "" for other samples. Whole ones may have less bits than a byte.
@@ -77,11 +82,7 @@ std::string type_of_samples(const File& file) {
 }
 
 std::optional<double> no_data_of(const File& file, const std::string& type) {
-  constexpr ttag_t no_data = 42113;  // GDAL's, which the library does not know: it hands out the bytes
-  std::uint32_t count = 0;
-  const char* text = nullptr;
-  if (TIFFGetField(file.get(), no_data, &count, &text) != 1 || text == nullptr) return std::nullopt;
-  const auto value = parse_number<double>(std::string_view(text, strnlen(text, count)));
+  const std::optional<double> value = read_no_data(file.get());
   return value && type == "f4" ? static_cast<double>(static_cast<float>(*value)) : value;
 }
 
@@ -208,6 +209,7 @@ std::unique_ptr<ImageRows> open_tiff_image(const std::string& path) {
   info.is_white_zero = colors == PHOTOMETRIC_MINISWHITE;
   info.is_lossy = field<std::uint16_t>(file, TIFFTAG_COMPRESSION) == COMPRESSION_JPEG;
   info.pages = count_pages(file);
+  info.geotags = header.geotags;
   return std::make_unique<TiffRows>(info, std::move(file), path);
 }
 

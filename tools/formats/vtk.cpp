@@ -48,7 +48,8 @@ void write_vti(const OutputFile& file, const std::string& name, const Raster& ra
   const Size& size = raster.size;
   const double width = size.width(), height = size.height(), depth = static_cast<double>(raster.depth);
   const Georeference pixels = {{0, 0, width, height, 0, depth}, false, {}};
-  const auto& [bounds, y_up, crs] = raster.georeference ? *raster.georeference : pixels;
+  const bool has_bounds = raster.georeference && !raster.georeference->tags;
+  const auto& [bounds, y_up, crs, tags] = has_bounds ? *raster.georeference : pixels;
   const std::uint64_t bytes = values.size() * sizeof(T);
   GrowingFile image(file);
   image << fmt::format(

@@ -70,7 +70,8 @@ void run_tiles(TilesOptions options) {
   const FinishAtEnd finish(device);
   const std::unique_ptr<MaskRows> mask = open_plane_mask(options.seeds);
   const Tiling tiling = tiling_of(options, device);
-  PlaneWriter writer(options.output, tiling, georeference(options, tiling), run_of(options, tiling));
+  PlaneWriter writer(options.output, tiling, georeference(options, tiling, mask.get()),
+                     run_of(options, tiling));
   const auto [seeds, facts] = read_seeds(options.seeds, mask.get(), tiling.window().grid(), interruption);
   writer.begin(facts.name);
   const TilesCourse course = make_tiles(options, device, *seeds, tiling, facts.units, writer, interruption);

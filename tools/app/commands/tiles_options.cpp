@@ -87,7 +87,7 @@ void add_tiles(CommandLine& line, const std::function<void(const TilesOptions&)>
   command
       .add("--labels", options->output.labels,
            "Labels: a .npy file (uint32), a .zarr folder (Zarr version 2, a chunk per tile) or a .tif file "
-           "(tiled BigTIFF; with --bounds a GeoTIFF)")
+           "(tiled BigTIFF; with --bounds, and of a mask that is one, a GeoTIFF)")
       .value_name("FILE");
   command
       .add("--distance", options->output.distances,
@@ -149,10 +149,12 @@ std::string run_of(const TilesOptions& options, const Tiling& tiling) {
   return options.run + fmt::format("tiles of {}\n", tiling.side());
 }
 
-std::optional<Georeference> georeference(const TilesOptions& options, const Tiling& tiling) {
+std::optional<Georeference> georeference(const TilesOptions& options, const Tiling& tiling,
+                                         const MaskRows* mask) {
   const std::optional<Bounds>& bounds = options.seeds.bounds;
-  if (!bounds) return std::nullopt;
   const Window& window = tiling.window();
+  if (mask != nullptr) return georeference_of(mask->geotags(), window.x(), window.y());
+  if (!bounds) return std::nullopt;
   const Grid& plane = window.grid();
   const bool y_up = points_up(options.seeds);
   const auto between = [](double low, double high, std::int64_t pixel, std::int64_t pixels) {

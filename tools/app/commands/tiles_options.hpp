@@ -40,8 +40,9 @@ bool is_tiff_name(const std::string& path);
 /// are not in the plane.
 Tiling tiling_of(const TilesOptions& options, const Device& device);
 
-/// Where the part lies in the coordinates of the bounds; none without bounds.
-std::optional<Georeference> georeference(const TilesOptions& options, const Tiling& tiling);
+/// Where the part lies in the coordinates of the bounds or of the mask; none without these.
+std::optional<Georeference> georeference(const TilesOptions& options, const Tiling& tiling,
+                                         const MaskRows* mask = nullptr);
 
 /// What tells a run from others, in lines.
 std::string run_of(const TilesOptions& options, const Tiling& tiling);

@@ -99,8 +99,10 @@ Input plane_from_mask(const SeedOptions& options) {
   for (const std::string& note : mask.notes) print_note(note);
   check_mask_size(options.mask, mask.size.grid(), options.size);
   const Grid grid = mask.size.grid(periodic_axes(options));
+  View view = {mask.size, grid};
+  view.picture.georeference = georeference_of(mask.geotags);
   return {
-      {mask.size, grid},
+      view,
       [grid, pixels = mask.pixels](const Device& device) { return Seeds::from_mask(device, grid, pixels); },
       {}};
 }

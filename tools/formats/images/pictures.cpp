@@ -39,6 +39,7 @@ ImageInfo info_of(const cv::Mat& picture, const ImageHeader& header) {
   info.has_alpha = picture.channels() == 4;
   info.type = picture.depth() == CV_8U ? "u1" : picture.depth() == CV_16U ? "u2" : "f4";
   info.is_lossy = header.is_lossy;
+  info.geotags = header.geotags;
   return info;
 }
 
@@ -147,7 +148,7 @@ void MaskRows::next(std::vector<std::uint8_t>& pixels) {
 
 Mask read_mask(const std::string& path, std::optional<double> threshold) {
   MaskRows rows(path, threshold);
-  Mask mask{diagram_size(path, rows.width(), rows.height()), {}, rows.notes()};
+  Mask mask{diagram_size(path, rows.width(), rows.height()), {}, rows.notes(), rows.geotags()};
   mask.pixels.reserve(mask.size.pixels());
   for (int y = 0; y < mask.size.height(); ++y) rows.next(mask.pixels);
   return mask;

@@ -26,6 +26,7 @@ struct ImageHeader {
   bool is_compressed = true;
   bool is_lossy = false;
   bool is_plain = false;  // decoded as it is: one channel if it is grey, with alpha if it has that
+  std::optional<GeoTags> geotags = std::nullopt;
 };
 
 /// Throws Error unless a file that starts like this is a PNG, JPEG, BMP, TIFF or PNM (PBM, PGM, PPM) file:
@@ -59,6 +60,7 @@ class MaskRows {
 
   std::int64_t width() const { return rows_->info().width; }
   std::int64_t height() const { return rows_->info().height; }
+  const std::optional<GeoTags>& geotags() const { return rows_->info().geotags; }
 
   /// Of what a user may not expect of the file.
   std::vector<std::string> notes() const;
@@ -81,6 +83,7 @@ struct Mask {
   Size size;
   std::vector<std::uint8_t> pixels;  // row-major, 0 where there is no seed
   std::vector<std::string> notes;
+  std::optional<GeoTags> geotags = std::nullopt;
 };
 
 /// Memory: a byte per pixel beside that of the rows. Throws Error as MaskRows, and if no diagram can have the

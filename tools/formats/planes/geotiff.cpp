@@ -2,6 +2,7 @@
 
 #include <tiffio.h>
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 
@@ -39,9 +40,26 @@ void add_tags(TIFF* file) {
   TIFFMergeFieldInfo(file, tags.data(), static_cast<std::uint32_t>(tags.size()));
 }
 
-template <std::size_t count>
-bool set(TIFF* file, Tag tag, const std::array<double, count>& values) {
-  return TIFFSetField(file, tag, static_cast<int>(count), values.data()) == 1;
+/// The values of a tag as the library reads it that does not know it; none: it is not there, or has others.
+template <typename T>
+std::vector<T> read(TIFF* file, Tag tag, TIFFDataType type) {
+  std::uint32_t count = 0;
+  const T* values = nullptr;
+  const TIFFField* const field = TIFFFindField(file, tag, TIFF_ANY);
+  if (field == nullptr || TIFFFieldDataType(field) != type || TIFFGetField(file, tag, &count, &values) != 1)
+    return {};
+  return {values, values + count};
+}
+
+std::string read_text(TIFF* file, Tag tag) {
+  const std::vector<char> bytes = read<char>(file, tag, TIFF_ASCII);
+  return {bytes.begin(), std::find(bytes.begin(), bytes.end(), '\0')};
+}
+
+/// False if that fails; no values are none.
+template <typename T>
+bool set(TIFF* file, Tag tag, const std::vector<T>& values) {
+  return values.empty() || TIFFSetField(file, tag, static_cast<int>(values.size()), values.data()) == 1;
 }
 
 const GeotiffModule& geotiff_module() {
@@ -66,20 +84,42 @@ Crs parse_crs(const std::string& text) {
   return *crs;
 }
 
+std::optional<GeoTags> read_geotags(TIFF* file) {
+  GeoTags tags;
+  tags.scale = read<double>(file, pixel_scale, TIFF_DOUBLE);
+  tags.tie_points = read<double>(file, tie_point, TIFF_DOUBLE);
+  tags.transformation = read<double>(file, transformation, TIFF_DOUBLE);
+  tags.keys = read<std::uint16_t>(file, key_directory, TIFF_SHORT);
+  tags.key_doubles = read<double>(file, key_doubles, TIFF_DOUBLE);
+  tags.key_texts = read_text(file, key_texts);
+  if (tags.tie_points.empty() && tags.transformation.empty() && tags.keys.empty()) return std::nullopt;
+  return tags;
+}
+
+std::optional<double> read_no_data(TIFF* file) {
+  return parse_number<double>(read_text(file, tag_of_no_data));
+}
+
 bool write_georeference(TIFF* file, const Georeference& georeference, double width, double height,
                         const char* no_data) {
   add_tags(file);
   const Bounds& bounds = georeference.bounds;
   const double x = (bounds.x1 - bounds.x0) / width, y = (bounds.y1 - bounds.y0) / height;
-  bool done = false;
-  if (georeference.y_up) {
-    done =
-        set<3>(file, pixel_scale, {x, y, 0}) && set<6>(file, tie_point, {0, 0, 0, bounds.x0, bounds.y1, 0});
+  GeoTags tags;
+  if (georeference.tags) {
+    tags = *georeference.tags;
+  } else if (georeference.y_up) {
+    tags.scale = {x, y, 0};
+    tags.tie_points = {0, 0, 0, bounds.x0, bounds.y1, 0};
   } else {  // which a scale cannot say
-    done = set<16>(file, transformation, {x, 0, 0, bounds.x0, 0, y, 0, bounds.y0, 0, 0, 0, 0, 0, 0, 0, 1});
+    tags.transformation = {x, 0, 0, bounds.x0, 0, y, 0, bounds.y0, 0, 0, 0, 0, 0, 0, 0, 1};
   }
-  done = done && TIFFSetField(file, tag_of_no_data, no_data) == 1;
-  return done && (!georeference.crs || geotiff_module().write_keys(file, *georeference.crs));
+  return set(file, pixel_scale, tags.scale) && set(file, tie_point, tags.tie_points) &&
+         set(file, transformation, tags.transformation) && set(file, key_directory, tags.keys) &&
+         set(file, key_doubles, tags.key_doubles) &&
+         (tags.key_texts.empty() || TIFFSetField(file, key_texts, tags.key_texts.c_str()) == 1) &&
+         TIFFSetField(file, tag_of_no_data, no_data) == 1 &&
+         (!georeference.crs || geotiff_module().write_keys(file, *georeference.crs));
 }
 
 }  // namespace vorocl::command

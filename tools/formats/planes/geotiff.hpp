@@ -29,6 +29,12 @@ class GeotiffModule {
   ~GeotiffModule() = default;
 };
 
+/// Those tags of an open file; none: it is no GeoTIFF.
+std::optional<GeoTags> read_geotags(tiff* file);
+
+/// The number that pixels without a value have, as GDAL writes it; none: the file does not say it.
+std::optional<double> read_no_data(tiff* file);
+
 /// Sets a file's tags for an image of this size, whose pixels without a value have `no_data`. False if that
 /// fails.
 bool write_georeference(tiff* file, const Georeference& georeference, double width, double height,
