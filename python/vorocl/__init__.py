@@ -24,7 +24,7 @@ from ._errors import (
     HostMemoryError,
     KernelBuildError,
 )
-from ._exact_cells import EXACT_CELL, EXACT_FACE, EXACT_PAIR, EXACT_VOLUME_CELL, ExactCells, exact_cells
+from ._exact_cells import EXACT_CELL, EXACT_FACE, EXACT_PAIR, EXACT_VOLUME_CELL, ClippedCells, ExactCells, exact_cells
 from ._functions import (
     NO_LABEL,
     Relaxation,
@@ -53,6 +53,7 @@ __all__ = [
     "BadArgument",
     "BadPoint",
     "CELL",
+    "ClippedCells",
     "Device",
     "DeviceDescription",
     "DeviceError",

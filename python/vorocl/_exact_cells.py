@@ -12,7 +12,7 @@ from . import _vorocl
 from ._arguments import Outside, row_of, shown, to_flag, to_outside, to_points
 from ._device import Device, to_device
 from ._errors import BadArgument
-from ._grid import Bounds, Grid, Periodic, Tilt
+from ._grid import Bounds, Grid, Periodic, Tilt, to_periodic
 from ._parameters import with_parameters
 
 _FOUND = {np.uint32: "neighbours", np.bool_: "touches_border certified"}
@@ -30,7 +30,83 @@ EXACT_FACE = row_of({np.uint32: "a b", np.float64: "area", np.int32: "image_x im
 """One row of ``ExactCells.pairs`` of a volume."""
 
 
-class ExactCells:
+class _Cells:
+    """Points, and tables of their cells."""
+
+    points: NDArray[np.float64]
+    cells: NDArray[Any]
+    pairs: NDArray[Any]
+    _crs: Any = None  # of the polygons, if it is known
+
+    def __len__(self) -> int:
+        return len(self.cells)
+
+    def __repr__(self) -> str:
+        return f"<vorocl.{type(self).__name__} of {len(self)} points>"
+
+    def to_shapely(self) -> NDArray[Any]:
+        raise NotImplementedError
+
+    def to_geopandas(self, crs: Any = None, data: Any = None) -> Any:
+        """Return a GeoDataFrame of GeoPandas: the fields of `cells`, and the polygons, in a coordinate system.
+
+        Parameters
+        ----------
+        crs : optional
+            The coordinate system of the points, as GeoPandas takes it, such as "EPSG:25832"; else that of `data`, or of the
+            region that clipped the cells.
+        data : pandas.DataFrame, optional
+            One row per point: its columns stand before the fields, and its index, such as ids, names the rows. Of a
+            GeoDataFrame the geometry is left out, and the coordinate system is taken unless there is `crs`.
+
+        Raises
+        ------
+        BadArgument
+            If `data` has another number of rows, or a column of a name that the fields have, or another coordinate system
+            than the region.
+
+        Examples
+        --------
+        >>> import pandas
+        >>> import vorocl
+        >>> sites = pandas.DataFrame({"name": ["well", "spring"]}, index=[70, 90])
+        >>> cells = vorocl.exact_cells([(1, 1), (3, 1)], (0, 0, 4, 2)).to_geopandas("EPSG:25832", sites)
+        >>> print(cells.loc[90, "name"], cells.loc[90, "area"])
+        spring 4.0
+        >>> cells.to_file("cells.gpkg")  # doctest: +SKIP
+        """
+        polygons = self.to_shapely()
+        geopandas: Any = import_module("geopandas")
+        pandas: Any = import_module("pandas")
+        fields = pandas.DataFrame(self.cells)
+        crs = self._crs if crs is None else crs
+        if data is None:
+            return geopandas.GeoDataFrame(fields, geometry=polygons, crs=crs)
+        if not isinstance(data, pandas.DataFrame):
+            raise BadArgument(f"data must be a pandas.DataFrame, not {type(data).__name__}")
+        if isinstance(data, geopandas.GeoDataFrame):
+            if self._crs is not None and data.crs is not None and self._crs != data.crs:
+                raise BadArgument(f"the region is in {self._crs}, and data in {data.crs}: bring one to the other's by to_crs()")
+            crs = data.crs if crs is None else crs
+            data = pandas.DataFrame(data.drop(columns=data.geometry.name))
+        if len(data) != len(self):
+            raise BadArgument(f"data must have a row for each of the {len(self)} points, and has {len(data)}")
+        for name in [*fields.columns, "geometry"]:
+            if name in data.columns:
+                raise BadArgument(f'data has a column "{name}", and so have the cells: rename it')
+        columns = {name: fields[name].to_numpy() for name in fields}
+        return geopandas.GeoDataFrame(data.assign(**columns), geometry=polygons, crs=crs)
+
+    def to_pandas(self) -> Any:
+        """Return a DataFrame of pandas: ``x``, ``y`` and of a volume ``z`` of the points, and the fields of `cells`."""
+        pandas: Any = import_module("pandas")
+        frame = pandas.DataFrame(self.cells)
+        for axis, name in enumerate("xyz"[: self.points.shape[1]]):
+            frame.insert(axis, name, self.points[:, axis])
+        return frame
+
+
+class ExactCells(_Cells):
     """The cells of points as polygons, or as polyhedra, in the units of the points: what `exact_cells` returns.
 
     Attributes
@@ -62,9 +138,6 @@ class ExactCells:
         rows of `vertices`, counter-clockwise as seen from outside.
     """
 
-    points: NDArray[np.float64]
-    cells: NDArray[Any]
-    pairs: NDArray[Any]
     offsets: NDArray[np.uint32]
     neighbours: NDArray[np.uint32]
     lengths: NDArray[np.float64]
@@ -74,8 +147,9 @@ class ExactCells:
     corner_offsets: NDArray[np.int64]
     corners: NDArray[np.int64]
 
-    def __init__(self, points: NDArray[np.float64], found: Dict[str, NDArray[Any]]) -> None:
+    def __init__(self, points: NDArray[np.float64], found: Dict[str, NDArray[Any]], goes_round: bool) -> None:
         self.points = points
+        self._goes_round = goes_round
         rows = {"cells": EXACT_CELL, "pairs": EXACT_PAIR}
         if self._is_volume:
             rows = {"cells": EXACT_VOLUME_CELL, "pairs": EXACT_FACE}
@@ -90,12 +164,6 @@ class ExactCells:
     def _refuse_volume(self, what: str) -> None:
         if self._is_volume:
             raise BadArgument(f"{what} are of planes; these are the cells of a volume")
-
-    def __len__(self) -> int:
-        return len(self.cells)
-
-    def __repr__(self) -> str:
-        return f"<vorocl.ExactCells of {len(self)} points>"
 
     def polygon(self, row: int) -> NDArray[np.float64]:
         """Return the vertices of one cell of a plane, shape (K, 2): those of an empty cell are none."""
@@ -149,58 +217,150 @@ class ExactCells:
             polygons[full] = shapely.polygons(rings)
         return polygons
 
-    def to_geopandas(self, crs: Any = None, data: Any = None) -> Any:
-        """Return a GeoDataFrame of GeoPandas: the fields of `cells`, and the polygons, in a coordinate system.
+    def clip(self, region: Any) -> ClippedCells:
+        """Return what of the cells of a plane lies in a region, such as a country; by Shapely 2.
 
         Parameters
         ----------
-        crs : optional
-            The coordinate system of the points, as GeoPandas takes it, such as "EPSG:25832".
-        data : pandas.DataFrame, optional
-            One row per point: its columns stand before the fields, and its index, such as ids, names the rows. Of a
-            GeoDataFrame the geometry is left out, and the coordinate system is taken unless there is `crs`.
+        region : shapely.Polygon, shapely.MultiPolygon, sequence of these, geopandas.GeoSeries or geopandas.GeoDataFrame
+            All of them together, with their holes; in the units of the points. The coordinate system of GeoPandas is kept.
 
         Raises
         ------
         BadArgument
-            If `data` has another number of rows, or a column of a name that the fields have.
+            If there is another geometry, one that is not valid or no area, and for cells of a volume or a periodic plane.
 
         Examples
         --------
-        >>> import pandas
+        >>> import shapely
         >>> import vorocl
-        >>> sites = pandas.DataFrame({"name": ["well", "spring"]}, index=[70, 90])
-        >>> cells = vorocl.exact_cells([(1, 1), (3, 1)], (0, 0, 4, 2)).to_geopandas("EPSG:25832", sites)
-        >>> print(cells.loc[90, "name"], cells.loc[90, "area"])
-        spring 4.0
-        >>> cells.to_file("cells.gpkg")  # doctest: +SKIP
+        >>> found = vorocl.exact_cells([(1, 1), (3, 1)], (0, 0, 4, 2)).clip(shapely.box(1, 0.5, 2.5, 5))
+        >>> found.cells["area"], found.pairs["length"]
+        (array([1.5 , 0.75]), array([1.5]))
         """
-        self._refuse_volume("tables of GeoPandas")
-        geopandas: Any = import_module("geopandas")
-        pandas: Any = import_module("pandas")
-        fields, polygons = pandas.DataFrame(self.cells), self.to_shapely()
-        if data is None:
-            return geopandas.GeoDataFrame(fields, geometry=polygons, crs=crs)
-        if not isinstance(data, pandas.DataFrame):
-            raise BadArgument(f"data must be a pandas.DataFrame, not {type(data).__name__}")
-        if isinstance(data, geopandas.GeoDataFrame):
-            crs = data.crs if crs is None else crs
-            data = pandas.DataFrame(data.drop(columns=data.geometry.name))
-        if len(data) != len(self):
-            raise BadArgument(f"data must have a row for each of the {len(self)} points, and has {len(data)}")
-        for name in [*fields.columns, "geometry"]:
-            if name in data.columns:
-                raise BadArgument(f'data has a column "{name}", and so have the cells: rename it')
-        columns = {name: fields[name].to_numpy() for name in fields}
-        return geopandas.GeoDataFrame(data.assign(**columns), geometry=polygons, crs=crs)
+        self._refuse_volume("clipped cells")
+        if self._goes_round:
+            raise BadArgument("cells that go round a periodic axis cannot be clipped; cut them without periodic")
+        return ClippedCells(self, region)
 
-    def to_pandas(self) -> Any:
-        """Return a DataFrame of pandas: ``x``, ``y`` and of a volume ``z`` of the points, and the fields of `cells`."""
-        pandas: Any = import_module("pandas")
-        frame = pandas.DataFrame(self.cells)
-        for axis, name in enumerate("xyz"[: self.points.shape[1]]):
-            frame.insert(axis, name, self.points[:, axis])
-        return frame
+    def _edges(self) -> NDArray[np.float64]:
+        """The ends of the edge of each pair, shape (K, 2, 2), of a plane that is not periodic."""
+        begins, counts = self.offsets[:-1].astype(np.int64), np.diff(self.offsets)
+        cells = np.repeat(np.arange(len(self), dtype=np.uint32), counts)
+        behind = np.arange(1, len(cells) + 1)
+        behind[(begins + counts - 1)[counts > 0]] = begins[counts > 0]
+        edges = np.flatnonzero((self.neighbours > cells) & (self.neighbours < len(self)))
+        edges = edges[np.lexsort((self.neighbours[edges], cells[edges]))]
+        return np.stack([self.vertices[edges], self.vertices[behind[edges]]], axis=1)
+
+
+class ClippedCells(_Cells):
+    """What of the cells of a plane lies in a region: what `ExactCells.clip` returns.
+
+    A cell may be in several parts, have holes, or be empty: then its area is 0, and its centroid NaN.
+
+    Attributes
+    ----------
+    points : ndarray
+        Shape (N, 2): the points that were given, those outside the region too.
+    cells : ndarray
+        As of `ExactCells`, of what is left: ``touches_border`` is true where the region's border cuts the cell or touches
+        it, and ``perimeter`` has that border too.
+    pairs : ndarray
+        As of `ExactCells`: the pairs that still touch in the region, the length of their edge there, and its middle.
+    """
+
+    def __init__(self, whole: ExactCells, region: Any) -> None:
+        shapely: Any = import_module("shapely")
+        area, self._crs = _to_region(region)
+        shapely.prepare(area)
+        self.points, self.cells, self._polygons = whole.points, whole.cells.copy(), whole.to_shapely()
+        inside = shapely.contains_properly(area, self._polygons)
+        rest = np.flatnonzero(~inside)
+        met = rest[shapely.intersects(area, self._polygons[rest])]
+        # The region's parts are apart, and smaller than all of it.
+        parts = shapely.get_parts(area)
+        tree = shapely.STRtree(parts)
+        of, part = tree.query(self._polygons[met])
+        cut = _united(shapely.intersection(self._polygons[met[of]], parts[part]), of, len(met))
+        self._polygons[rest] = shapely.Polygon()
+        self._polygons[met] = cut
+        left = self._polygons[rest]
+        x, y = _centroids(left)
+        changes = {
+            "area": shapely.area(left),
+            "centroid_x": x,
+            "centroid_y": y,
+            "perimeter": shapely.length(left),
+            "touches_border": ~shapely.is_empty(left),
+        }
+        for name, values in changes.items():
+            self.cells[name][rest] = values
+
+        pairs = whole.pairs.copy()
+        a, b = pairs["a"], pairs["b"]
+        there = self.cells["area"] > 0
+        pairs["length"][~(there[a] & there[b])] = 0
+        some = np.flatnonzero((pairs["length"] > 0) & ~inside[a] & ~inside[b])
+        lines = shapely.linestrings(whole._edges()[some])
+        crossing = ~shapely.contains_properly(area, lines)
+        some, lines = some[crossing], lines[crossing]
+        of, part = tree.query(lines)
+        lines = shapely.intersection(lines[of], parts[part])
+        lines = shapely.difference(lines, shapely.boundary(parts)[part])  # along which a cell has no other beside it
+        lengths = shapely.length(lines)
+        of, lines, lengths = of[lengths > 0], lines[lengths > 0], lengths[lengths > 0]
+        sums = np.bincount(of, lengths, minlength=len(some))
+        pairs["length"][some] = sums
+        for name, centres in zip(("midpoint_x", "midpoint_y"), _centroids(lines)):
+            pairs[name][some] = np.bincount(of, lengths * centres, minlength=len(some)) / np.where(sums > 0, sums, 1)
+        self.pairs = pairs[pairs["length"] > 0]
+        both = np.concatenate([self.pairs["a"], self.pairs["b"]])
+        self.cells["neighbours"] = np.bincount(both, minlength=len(self))
+
+    def to_shapely(self) -> NDArray[Any]:
+        """Return a Polygon or MultiPolygon of Shapely per point; empty ones of empty cells."""
+        return self._polygons.copy()
+
+
+def _centroids(geometries: NDArray[Any]) -> NDArray[np.float64]:
+    """Their x and their y; NaN of empty ones."""
+    shapely: Any = import_module("shapely")
+    places, of = shapely.get_coordinates(shapely.centroid(geometries), return_index=True)
+    found = np.full((2, len(geometries)), np.nan)
+    found[:, of] = places.T
+    return found
+
+
+def _united(geometries: NDArray[Any], of: NDArray[np.intp], count: int) -> NDArray[Any]:
+    """Their polygons, all `of` a number as one, without points and lines in which shapes meet."""
+    shapely: Any = import_module("shapely")
+    parts, rows = shapely.get_parts(geometries, return_index=True)
+    flat = (shapely.get_dimensions(parts) == 2) & ~shapely.is_empty(parts)
+    parts, of = parts[flat], of[rows[flat]]
+    result = np.full(count, shapely.Polygon(), dtype=object)
+    result[of] = parts
+    several = (np.bincount(of, minlength=count) > 1)[of]
+    rows, numbers = np.unique(of[several], return_inverse=True)
+    if len(rows) > 0:
+        result[rows] = shapely.multipolygons(parts[several], indices=numbers)
+    return result
+
+
+def _to_region(region: Any) -> Tuple[Any, Any]:
+    """All polygons as one, and their coordinate system."""
+    shapely: Any = import_module("shapely")
+    given = np.atleast_1d(np.asarray(getattr(region, "geometry", region), dtype=object))
+    given = given[~shapely.is_missing(given)]
+    if not shapely.is_geometry(given).all() or not np.isin(shapely.get_type_id(given), (3, 6)).all():
+        raise BadArgument(f"region must be polygons of Shapely or GeoPandas; this is {shown(region)}")
+    for polygon in given[~shapely.is_valid(given)]:
+        raise BadArgument(f"region is no valid polygon: {shapely.is_valid_reason(polygon)}; shapely.make_valid() may help")
+    given = shapely.force_2d(given)
+    area = given[0] if len(given) == 1 else shapely.union_all(given)
+    if area.is_empty:
+        raise BadArgument("region is empty")
+    return area, getattr(region, "crs", None)
 
 
 def to_weights(weights: Optional[ArrayLike], count: int) -> Optional[NDArray[np.float64]]:
@@ -307,4 +467,5 @@ def exact_cells(
     grid = Grid((2, 1, 1) if dimensions == 3 else (1, 1), bounds, periodic, tilt)._of(outside)
     array = to_points(points, dimensions)
     seeds = _vorocl.Seeds(to_device(device)._device, grid, array, to_outside(outside), True)
-    return ExactCells(array, _vorocl.exact_cells(seeds, with_polyhedra, to_weights(weights, len(array))))
+    found = _vorocl.exact_cells(seeds, with_polyhedra, to_weights(weights, len(array)))
+    return ExactCells(array, found, any(to_periodic(periodic, dimensions)))
