@@ -1,3 +1,3 @@
-// The program of exact diagrams of planes in the vector shape.
+// The program of exact diagrams by places, of planes and of volumes, on CPUs.
 
-#include "exact/tiles.cl"
+#include "exact/regions.cl"

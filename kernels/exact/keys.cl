@@ -1,12 +1,12 @@
-// The nearest of a short list at each pixel of a box, by keys of 32 bits: one addition and one minimum per place and
-// vector of pixels.
+// The nearest of a short list at each pixel of a box, by keys of 32 bits: one addition and one minimum per
+// place and vector of pixels.
 //
-// KEYS. With the origin at a pixel centre, a place c in units of 2^-F pixels (F: FRACTION_BITS) and a pixel p in whole
-// pixels, |c - p|^2 less |p|^2, which is the same for all places, is |c|^2 - 2^(F + 1) p.c. The low F + 1 bits of it
-// are those of |c|^2 at every pixel. They go into the RANK of a place: its number in the order of (these bits, y, x,
-// id). A key is the other bits, and below them the rank. The least key is that of the nearest seed, by the tie rule of
-// design: the first in the order (y, x) of its position in the grid, then that of the lowest id.
-// By the Manhattan metric a key is the distance, less that of one place from the box's centre, and the rank.
+// KEYS. With the origin at a pixel centre, a place c in units of 2^-FRACTION_BITS and a pixel p in whole
+// units of the spacing, |c - p|^2 less |p|^2, which is the same for all places, is |c|^2 - 2^(FRACTION_BITS +
+// 1) p.c. So the low FRACTION_BITS + 1 bits are those of |c|^2 at every pixel. They go into the RANK of a
+// place: its number in the order of (these bits, z, y, x, id). A key is the other bits, and below them the
+// rank. By the Manhattan metric a key is the distance and the rank. All are less those of the list's first
+// place.
 
 #ifndef VOROCL_EXACT_KEYS
 #define VOROCL_EXACT_KEYS
@@ -16,103 +16,93 @@
 #ifndef MOST_OF_KEYS
 #define MOST_OF_KEYS 128
 #endif
-#define RANK_ROOM (MOST_OF_KEYS + LANES_OF_POINTS)
-#define LOW_BITS (FRACTION_BITS + 1)
-#define Y_BITS (32 - LOW_BITS)  // of the difference of two coordinates beside them
+#define RANK_ROOM (MOST_OF_KEYS + 8)
+#define FAR_BITS (32 - LOW_BITS)
 
 #if SIDE_BITS > 15
 #error "What orders seeds at the centres of pixels does not fit in an int"
 #endif
-#if 2 * FRACTION_BITS + 2 > 31
-#error "The sum of two squared fractions must fit in 31 bits"
-#endif
 
-// The places of a list, exactly: units from the origin, and what orders them.
 typedef struct {
-  int x[RANK_ROOM], y[RANK_ROOM];
-  uint high[RANK_ROOM];  // Euclidean: |c|^2 >> LOW_BITS
-  int low[RANK_ROOM];    // Euclidean: its low bits, in order; Manhattan: 0
-  uint rank[RANK_ROOM];
-  uint values[RANK_ROOM];  // by rank: what is written for a place
+  int x[RANK_ROOM], y[RANK_ROOM], z[RANK_ROOM];  // Euclidean: less those of the first place
+  uint high[RANK_ROOM];  // less that of the first place: |c|^2 >> LOW_BITS; Manhattan: less its distance
+  int low[RANK_ROOM];    // |c|^2's low bits; Manhattan: 0
+  uint rank[RANK_ROOM], labels[RANK_ROOM];
 } places_t;
 
-// Ranks where the order by low bits and near rows leaves ties, by places of which `x` and `y` have the order. Images of
-// one seed stand in the order of the list.
-NOINLINE static void rank_to_the_end(const scene_t* scene, const uint* at, const int* x, const int* y, places_t* places,
-                                     int count) {
+NOINLINE static void rank_to_the_end(const scene_t* scene, const uint* at, places_t* places, int count) {
+  int x[RANK_ROOM], y[RANK_ROOM], z[RANK_ROOM];
   uint id[RANK_ROOM];
-  for (int i = 0; i < count; ++i) id[i] = scene->ids[at[i]];
+  for (int i = 0; i < count; ++i) {
+    x[i] = own_x(scene, at[i]), y[i] = own_y(scene, at[i]), z[i] = IS_VOLUME ? scene->z[at[i]] : 0;
+    id[i] = scene->ids[at[i]];
+  }
   for (int k = 0; k < count; k += 8) {
-    const int8 own_low = vload8(0, places->low + k), own_y = vload8(0, y + k), own_x = vload8(0, x + k);
+    const int8 own_low = vload8(0, places->low + k), own_z = vload8(0, z + k);
+    const int8 own_y = vload8(0, y + k), own_x = vload8(0, x + k);
     const uint8 own_id = vload8(0, id + k);
     int8 rank = 0;
     for (int i = 0; i < count; ++i) {
       const int8 by_id = (id[i] < own_id) | ((id[i] == own_id) & (i < EIGHT + k));
       const int8 by_x = (x[i] < own_x) | ((x[i] == own_x) & by_id);
       const int8 by_y = (y[i] < own_y) | ((y[i] == own_y) & by_x);
-      const int8 comes_before = (places->low[i] < own_low) | ((places->low[i] == own_low) & by_y);
-      rank = select(rank, rank + 1, comes_before);
+      const int8 by_z = (z[i] < own_z) | ((z[i] == own_z) & by_y);
+      const int8 before = (places->low[i] < own_low) | ((places->low[i] == own_low) & by_z);
+      rank = select(rank, rank + 1, before);
     }
     store_uints(as_uint8(rank), places->rank + k);
   }
 }
 
-// Ranks the places. Two places of one seed, which are images, have two ranks.
+static inline bool differ(const int* values, int count) {
+  int8 other = 0;
+  for (int k = 0; k < count; k += 8) other |= (vload8(0, values + k) != values[0]) & (EIGHT + k < count);
+  return any(other);
+}
+
 static inline void rank_places(const scene_t* scene, const uint* at, places_t* places, int count) {
-  int own_x[RANK_ROOM], own_y[RANK_ROOM];
-  const int *x = places->x, *y = places->y;
-  if (PERIODIC_X || PERIODIC_Y || scene->order) {  // images, whose seeds' positions decide
-    for (int i = 0; i < count; ++i) {
-      const int2 own = own_position(scene, at[i]);
-      own_x[i] = own.x;
-      own_y[i] = own.y;
-    }
-    x = own_x;
-    y = own_y;
-  }
+  const bool has_images = has_images_of(scene);
   int order[RANK_ROOM];
-#ifdef VOROCL_FRACTIONS
-  const int most = 1 << (Y_BITS - 1), first_y = y[0];
+#if !IS_VOLUME && FRACTION_BITS == 1
+  // All have the same low bits; ways of whole pixels take 16 bits and leave no ties but on one pixel.
+  int of_x[RANK_ROOM], of_y[RANK_ROOM];
+  for (int i = 0; has_images && i < count; ++i) of_x[i] = own_x(scene, at[i]), of_y[i] = own_y(scene, at[i]);
+  const int *const x = has_images ? of_x : places->x, *const y = has_images ? of_y : places->y;
   for (int k = 0; k < count; k += 8) {
-    const int8 way = clamp(sub_sat(vload8(0, y + k), (int8)first_y), (int8)-most, (int8)(most - 1)) + most;
-    store_ints((vload8(0, places->low + k) << Y_BITS) + way, order + k);
+    const int8 way_x = (vload8(0, x + k) - x[0]) >> 1, way_y = (vload8(0, y + k) - y[0]) >> 1;
+    store_ints(way_y * (1 << 16) + way_x, order + k);
   }
 #else
-  // All have the same low bits; ways of whole pixels take 16 bits and leave no ties but on one pixel.
-  const int first_x = x[0], first_y = y[0];
+  // By the low bits and the first axis of the tie rule along which places differ, as far as these are enough.
+  const bool by_z = IS_VOLUME && differ(places->z, count);
+  int of_seeds[RANK_ROOM];  // images, whose seeds' positions decide
+  for (int i = 0; has_images && i < count; ++i) of_seeds[i] = by_z ? scene->z[at[i]] : own_y(scene, at[i]);
+  const int* const own = has_images ? of_seeds : by_z ? places->z : places->y;
+  const int most = 1 << (FAR_BITS - 1), first = own[0];
   for (int k = 0; k < count; k += 8) {
-    const int8 way_x = (vload8(0, x + k) - first_x) >> 1, way_y = (vload8(0, y + k) - first_y) >> 1;
-    store_ints(way_y * (1 << 16) + way_x, order + k);
+    const int8 way = clamp(sub_sat(vload8(0, own + k), (int8)first), (int8)-most, (int8)(most - 1)) + most;
+    store_ints(((vload8(0, places->low + k) - ONE) << FAR_BITS) + way, order + k);
   }
 #endif
   int8 sum = 0;
   for (int k = 0; k < count; k += 8) {
-    const int8 own = vload8(0, order + k);
+    const int8 mine = vload8(0, order + k);
     int8 rank = 0;
-    for (int i = 0; i < count; ++i) rank = select(rank, rank + 1, order[i] < own);
+    for (int i = 0; i < count; ++i) rank = select(rank, rank + 1, order[i] < mine);
     store_uints(as_uint8(rank), places->rank + k);
     sum += select((int8)0, rank, EIGHT + k < count);
   }
-  const int4 half_sums = sum.lo + sum.hi;
-  const bool has_ties = half_sums.x + half_sums.y + half_sums.z + half_sums.w != count * (count - 1) / 2;
-  if (has_ties) rank_to_the_end(scene, at, x, y, places, count);
+  if (sum_of(sum) != count * (count - 1) / 2) rank_to_the_end(scene, at, places, count);
 }
 
-// A table of up to 8 x `vectors` values at vectors of ranks.
-static inline __attribute__((always_inline)) void look_up_values(const uint* table, int vectors, uint8 mask,
-                                                                 const int8* keys, uint8* values) {
+INLINE uint8 look_up(const uint* table, int vectors, uint8 rank) {
+  uint8 value = permuted(vload8(0, table), rank & 7u);
 #pragma unroll
-  for (int k = 0; k < 8; ++k) {
-    const uint8 rank = as_uint8(keys[k]) & mask;
-    uint8 value = permuted(vload8(0, table), rank & 7u);
-#pragma unroll
-    for (int t = 1; t < vectors; ++t) {
-      value = select(value, permuted(vload8(0, table + 8 * t), rank & 7u), rank >= (uint)(8 * t));
-    }
-    values[k] = value;
+  for (int t = 1; t < vectors; ++t) {
+    value = select(value, permuted(vload8(0, table + 8 * t), rank & 7u), rank >= (uint)(8 * t));
   }
+  return value;
 }
-
 static inline uint8 look_up_one_by_one(const uint* table, uint8 rank) {
   uint lane[8];
   store_uints(rank, lane);
@@ -120,162 +110,288 @@ static inline uint8 look_up_one_by_one(const uint* table, uint8 rank) {
   return vload8(0, lane);
 }
 
-// The parts of a place's key that its column and its row give, for the pixels of a box whose centre is the corner of
-// four pixels; the origin is the centre of that on the lower right.
-static inline uint8 key_of_columns(const places_t* places, int i, int first, int bits, uint base) {
-#ifdef VOROCL_EUCLIDEAN
-  return ((places->high[i] - base) << bits) + places->rank[i] - (as_uint8(EIGHT + first) * (uint)places->x[i] << bits);
-#else
-  return ((abs(places->x[i] - (EIGHT + first) * ONE_PIXEL) - base) << bits) + places->rank[i];
-#endif
+// --- labels ---
+
+static inline size_t index_of(const scene_t* scene, int x, int y, int z) {
+  return ((size_t)z * (size_t)scene->size.y + (size_t)y) * (size_t)scene->size.x + (size_t)x;
 }
-static inline uint8 key_of_rows(const places_t* places, int i, int first, int bits) {
-#ifdef VOROCL_EUCLIDEAN
-  return 0u - (as_uint8(EIGHT + first) * (uint)places->y[i] << bits);
-#else
-  return abs(places->y[i] - (EIGHT + first) * ONE_PIXEL) << bits;
-#endif
+NOINLINE static void show_some(const scene_t* scene, int x, int y, int z, uint8 labels) {
+  if (y >= scene->size.y || z >= scene->size.z) return;
+  uint lane[8];
+  store_uints(labels, lane);
+  for (int i = 0; i < 8 && x + i < scene->size.x; ++i) {
+    scene->labels[index_of(scene, x + i, y, z)] = has_label(scene, x + i, y, z) ? lane[i] : NO_LABEL;
+  }
 }
-
-// Writes the values of the nearest places of a box of SIDE x SIDE pixels.
-#define DEFINE_FIND_BY_KEYS(name, SIDE)                                                                           \
-  NOINLINE static void name(const places_t* places, int count, int bits, uint base, uint* out) {                   \
-    uint8 columns[MOST_OF_KEYS * (SIDE / 8)];                                                                       \
-    uint rows[MOST_OF_KEYS * 8];                                                                                    \
-    const uint8 mask = (1u << bits) - 1;                                                                           \
-    for (int i = 0; i < count; ++i) {                                                                              \
-      _Pragma("unroll") for (int q = 0; q < SIDE / 8; ++q) {                                                       \
-        columns[i * (SIDE / 8) + q] = key_of_columns(places, i, 8 * q - SIDE / 2, bits, base);                     \
-      }                                                                                                            \
-    }                                                                                                              \
-    for (int top = 0; top < SIDE; top += 8) {                                                                      \
-      for (int i = 0; i < count; ++i) store_uints(key_of_rows(places, i, top - SIDE / 2, bits), rows + 8 * i);      \
-      for (int part = 0; part < 8; part += 64 / SIDE) {                                                            \
-        int8 a = INT_MAX, b = a, c = a, d = a, e = a, f = a, g = a, h = a;                                         \
-        for (int i = 0; i < count; ++i) {                                                                          \
-          const uint* const row = rows + 8 * i + part;                                                             \
-          const uint8 left = columns[i * (SIDE / 8)];                                                              \
-          if (SIDE == 16) {                                                                                        \
-            const uint8 right = columns[i * (SIDE / 8) + SIDE / 8 - 1];                                            \
-            a = min(a, as_int8(left + row[0])), b = min(b, as_int8(right + row[0]));                               \
-            c = min(c, as_int8(left + row[1])), d = min(d, as_int8(right + row[1]));                               \
-            e = min(e, as_int8(left + row[2])), f = min(f, as_int8(right + row[2]));                               \
-            g = min(g, as_int8(left + row[3])), h = min(h, as_int8(right + row[3]));                               \
-          } else {                                                                                                 \
-            a = min(a, as_int8(left + row[0])), b = min(b, as_int8(left + row[1]));                                \
-            c = min(c, as_int8(left + row[2])), d = min(d, as_int8(left + row[3]));                                \
-            e = min(e, as_int8(left + row[4])), f = min(f, as_int8(left + row[5]));                                \
-            g = min(g, as_int8(left + row[6])), h = min(h, as_int8(left + row[7]));                                \
-          }                                                                                                        \
-        }                                                                                                          \
-        const int8 keys[8] = {a, b, c, d, e, f, g, h};                                                             \
-        uint8 found[8];                                                                                            \
-        switch ((count + 7) / 8) {                                                                                 \
-          case 1: look_up_values(places->values, 1, mask, keys, found); break;                                     \
-          case 2: look_up_values(places->values, 2, mask, keys, found); break;                                     \
-          case 3: look_up_values(places->values, 3, mask, keys, found); break;                                     \
-          case 4: look_up_values(places->values, 4, mask, keys, found); break;                                     \
-          case 5:                                                                                                  \
-          case 6: look_up_values(places->values, 6, mask, keys, found); break;                                     \
-          case 7:                                                                                                  \
-          case 8: look_up_values(places->values, 8, mask, keys, found); break;                                     \
-          default:                                                                                                 \
-            _Pragma("unroll") for (int k = 0; k < 8; ++k) {                                                        \
-              found[k] = look_up_one_by_one(places->values, as_uint8(keys[k]) & mask);                              \
-            }                                                                                                      \
-        }                                                                                                          \
-        _Pragma("unroll") for (int k = 0; k < 8; ++k) {                                                            \
-          const int y = top + part + (SIDE == 16 ? k / 2 : k), x = SIDE == 16 ? k % 2 * 8 : 0;                     \
-          store_uints(found[k], out + y * SIDE + x);                                                                \
-        }                                                                                                          \
-      }                                                                                                            \
-    }                                                                                                              \
+// Eight labels, in one piece if all pixels are known to get one. Others of the grid get none.
+static inline void show_eight(const scene_t* scene, bool is_inside, int x, int y, int z, uint8 labels) {
+  if (is_inside) {
+    ((global unaligned_uints*)(scene->labels + index_of(scene, x, y, z)))->v = labels;
+  } else {
+    show_some(scene, x, y, z, labels);
   }
-DEFINE_FIND_BY_KEYS(find_8_by_keys, 8)
-DEFINE_FIND_BY_KEYS(find_16_by_keys, 16)
-
-// Whether keys of so many rank bits hold what can be found in a list: differences of distances from all pixels of the
-// box. `reach`: no place is farther along an axis from a pixel. `is_relative`: less those of the list's first place.
-static inline bool keys_hold(const list_t* list, int from, int count, int side, float reach, int bits,
-                             bool* is_relative) {
-  const float most = 0x1.fp30f / (float)(1 << bits);
-#ifdef VOROCL_EUCLIDEAN
-  const float of_square = (float)(1 << (2 * FRACTION_BITS - LOW_BITS));
-  *is_relative = 2 * reach * reach * of_square + 2 >= most;
-  if (!*is_relative) return true;
-  const float first_x = (float)list->x[from], first_y = (float)list->y[from];
-  float8 greatest = 0;
-  for (int k = 0; k < count; k += 8) {
-    float8 x, y;
-    load_floats(list, from + k, &x, &y);
-    const float8 way_x = fabs(x - first_x), way_y = fabs(y - first_y);
-    const float8 lag = fma(way_x, fabs(x + first_x), way_y * fabs(y + first_y)) * (1.f / (1 << LOW_BITS)) +
-                       (way_x + way_y) * (float)(side / 2 + 1);
-    greatest = max(greatest, select(lag, (float8)0, EIGHT + k >= count));
-  }
-  const float4 halves = max(greatest.lo, greatest.hi);
-  return fmax(fmax(halves.x, halves.y), fmax(halves.z, halves.w)) < most;
-#else
-  (void)list;
-  (void)from;
-  (void)count;
-  (void)side;
-  (void)reach;
-  // What may win in a box is at most twice the box's ways nearer or farther than another place that may.
-  *is_relative = true;
-  return 256.f * ONE_PIXEL < most;
-#endif
 }
-
-// What is written for a place: the id of its seed, or where it stands in the index.
-typedef enum { IDS, PLACES } values_t;
-
-// Finds the nearest at each pixel of a box of 8 or 16 pixels a side, of `count` places of a list relative to its
-// centre, from the number `from` on; false if keys do not hold them.
-NOINLINE static bool find_by_keys(const scene_t* scene, const list_t* list, int from, int count, int side, float reach,
-                                  values_t values, uint* out) {
-  const uint* const at = list->at + from;
-  if (count > MOST_OF_KEYS) return false;
-  const int bits = 32 - (int)clz((uint)max(count - 1, 1));
-  bool is_relative;
-  if (!keys_hold(list, from, count, side, reach, bits, &is_relative)) return false;
-
-  places_t places;
-  for (int k = 0; k < count; k += 8) {
-    const int8 x = vload8(0, list->x + from + k) - HALF_PIXEL, y = vload8(0, list->y + from + k) - HALF_PIXEL;
-    store_ints(x, places.x + k);
-    store_ints(y, places.y + k);
-#ifdef VOROCL_EUCLIDEAN
-    // |c|^2 without 64 bits: c is whole * 2^F + rest along each axis.
-    const uint8 whole_x = as_uint8(x >> FRACTION_BITS), whole_y = as_uint8(y >> FRACTION_BITS);
-    const uint8 rest_x = as_uint8(x) & (ONE_PIXEL - 1u), rest_y = as_uint8(y) & (ONE_PIXEL - 1u);
-    const uint8 rests = rest_x * rest_x + rest_y * rest_y;
-    store_uints(((whole_x * whole_x + whole_y * whole_y) << (FRACTION_BITS - 1)) + whole_x * rest_x + whole_y * rest_y +
-                (rests >> LOW_BITS), places.high + k);
-    store_ints(as_int8(rests & ((1u << LOW_BITS) - 1)) - (1 << (LOW_BITS - 1)), places.low + k);
-#else
-    store_ints((int8)0, places.low + k);
-#endif
-  }
-  rank_places(scene, at, &places, count);
-  for (int i = 0; i < count; ++i) places.values[places.rank[i]] = values == IDS ? scene->ids[at[i]] : at[i];
-  uint subtracted = 0;
-#ifdef VOROCL_EUCLIDEAN
-  if (is_relative) {
-    const int first_x = places.x[0], first_y = places.y[0];
-    subtracted = places.high[0];
-    for (int k = 0; k < count; k += 8) {
-      store_ints(vload8(0, places.x + k) - first_x, places.x + k);
-      store_ints(vload8(0, places.y + k) - first_y, places.y + k);
+static inline bool is_inside(const scene_t* scene, box_t b) {
+  return has_label(scene, b.x, b.y, b.z) && has_label(scene, b.x + b.sx - 1, b.y + b.sy - 1, b.z + b.sz - 1);
+}
+NOINLINE static void show_one(const scene_t* scene, box_t b, uint label) {
+  const bool inside = is_inside(scene, b);
+  for (int z = b.z; z < min(b.z + b.sz, scene->size.z); ++z) {
+    for (int y = b.y; y < min(b.y + b.sy, scene->size.y); ++y) {
+      for (int x = b.x; x < b.x + b.sx; x += 8) show_eight(scene, inside, x, y, z, (uint8)label);
     }
   }
+}
+
+// Rows of a box stand one after another, slice after slice; eight of them, or four, have their least keys at
+// once.
+INLINE void label_rows(const scene_t* scene, box_t b, const places_t* places, int count, int bits,
+                       const int columns) {
+  uint8 of_columns[MOST_OF_KEYS * 2];
+  uint of_rows[MOST_OF_KEYS * 8], steps[MOST_OF_KEYS];  // of eight rows, and from them to the next eight
+  const uint8 mask = (1u << bits) - 1;
+  const bool inside = is_inside(scene, b);
+  const size_t row = (size_t)scene->size.x, slice = row * (size_t)scene->size.y;
+  global uint* const out = scene->labels + index_of(scene, b.x, b.y, b.z);
+  const int vectors = (count + 7) / 8, rows = b.sy * b.sz, shift = 31 - (int)clz((uint)b.sy);
+  const uint8 y = (as_uint8(EIGHT) & (uint)(b.sy - 1)) - (uint)(b.sy / 2);
+  const uint8 z = (as_uint8(EIGHT) >> (uint)shift) - (uint)(b.sz / 2);
+  for (int i = 0; i < count; ++i) {
+    const uint from_x = (uint)places->x[i] * SPACING_X, from_y = (uint)places->y[i] * SPACING_Y << bits;
+    const uint from_z = IS_VOLUME ? (uint)places->z[i] * SPACING_Z << bits : 0;
+#pragma unroll
+    for (int q = 0; q < columns; ++q) {
+      const uint8 x = as_uint8(EIGHT + (8 * q - 4 * columns));
+#if IS_MANHATTAN
+      of_columns[i * columns + q] =
+          ((places->high[i] + absolute(as_int8(from_x - x * ONE))) << bits) + places->rank[i];
 #else
-  subtracted = abs(places.x[0]) + abs(places.y[0]);
+      of_columns[i * columns + q] = ((places->high[i] - x * from_x) << bits) + places->rank[i];
 #endif
-  if (side == 8) {
-    find_8_by_keys(&places, count, bits, subtracted, out);
+    }
+    store_uints(IS_VOLUME ? 0u - y * from_y - z * from_z : 0u - y * from_y, of_rows + 8 * i);
+    steps[i] = IS_VOLUME ? from_z << (3 - shift) : from_y << 3;
+  }
+  for (int top = 0; top < rows && b.z + (top >> shift) < scene->size.z; top += 8) {
+#if IS_MANHATTAN
+    for (int i = 0; i < count; ++i) {
+      store_uints(absolute(places->y[i] - as_int8(y + (uint)top) * ONE) << bits, of_rows + 8 * i);
+    }
+#else
+    for (int i = 0; top > 0 && i < count; ++i)
+      store_uints(vload8(0, of_rows + 8 * i) - steps[i], of_rows + 8 * i);
+#endif
+    for (int part = 0; part < 8; part += 8 / columns) {
+      int8 least[8];
+#pragma unroll
+      for (int k = 0; k < 8; ++k) least[k] = INT_MAX;
+      for (int i = 0; i < count; ++i) {
+        const uint* const own = of_rows + 8 * i + part;
+        const uint8 left = of_columns[i * columns], right = of_columns[i * columns + columns - 1];
+#pragma unroll
+        for (int k = 0; k < 8; ++k) {
+          least[k] = min(least[k], as_int8((columns == 2 && k % 2 ? right : left) + own[k / columns]));
+        }
+      }
+      uint8 found[8];
+#define LOOK_UP(n)                                         \
+  _Pragma("unroll") for (int k = 0; k < 8; ++k) found[k] = \
+      look_up(places->labels, n, as_uint8(least[k]) & mask)
+      switch (vectors) {
+        case 1:
+          LOOK_UP(1);
+          break;
+        case 2:
+          LOOK_UP(2);
+          break;
+        case 3:
+          LOOK_UP(3);
+          break;
+        case 4:
+          LOOK_UP(4);
+          break;
+        case 5:
+        case 6:
+          LOOK_UP(6);
+          break;
+        default:
+#pragma unroll
+          for (int k = 0; k < 8; ++k)
+            found[k] = look_up_one_by_one(places->labels, as_uint8(least[k]) & mask);
+      }
+      if (inside) {
+#pragma unroll
+        for (int k = 0; k < 8; ++k) {
+          const int r = top + part + k / columns;
+          global uint* const to = out + (size_t)(r & (b.sy - 1)) * row + (size_t)(r >> shift) * slice;
+          ((global unaligned_uints*)(to + (columns == 2 ? k % 2 * 8 : 0)))->v = found[k];
+        }
+      } else {
+        for (int k = 0; k < 8; ++k) {
+          const int r = top + part + k / columns;
+          show_some(scene, b.x + (columns == 2 ? k % 2 * 8 : 0), b.y + (r & (b.sy - 1)), b.z + (r >> shift),
+                    found[k]);
+        }
+      }
+    }
+  }
+}
+NOINLINE static void label_rows_of_8(const scene_t* scene, box_t b, const places_t* places, int count,
+                                     int bits) {
+  label_rows(scene, b, places, count, bits, 1);
+}
+NOINLINE static void label_rows_of_16(const scene_t* scene, box_t b, const places_t* places, int count,
+                                      int bits) {
+  label_rows(scene, b, places, count, bits, 2);
+}
+
+// By how much the keys of two places of a list differ at a pixel of its box, at most, before ranks.
+static inline float spread_of_keys(const list_t* list, int count, box_t b) {
+  // From the box's centre to the origin and to any of its pixels it is at most half a side and one along an
+  // axis.
+  const float4 reach =
+      convert_float4((int4)(b.sx / 2 + 1, b.sy / 2 + 1, b.sz / 2 + 1, 0) * SPACINGS) * (2.f * ONE);
+  const float4 first = place_in(list, 0);
+  float8 most = 0;
+  for (int k = 0; k < count; k += 8) {
+    const places8_t p = load_from_list(list, k);
+    const floats8_t f = floats_of(p);
+#if IS_MANHATTAN
+    const float8 lead = fabs(f.n - distance_of(first)) + (reach.x + reach.y);
+#else
+    // Differences of whole numbers: floats of near places keep their digits.
+    const float8 x = fabs(convert_float8(p.x - list->x[0])), y = fabs(convert_float8(p.y - list->y[0]));
+    float8 lead = fma(x, fabs(f.x + first.x) + reach.x, y * (fabs(f.y + first.y) + reach.y));
+#if IS_VOLUME
+    lead = fma(fabs(convert_float8(p.z - list->z[0])), fabs(f.z + first.z) + reach.z, lead);
+#endif
+#endif
+    most = fmax(most, select(lead, (float8)0, EIGHT + k >= count));
+  }
+  return -least_float(-most) * (IS_MANHATTAN ? 1 : 1.f / (1 << LOW_BITS)) * (1 + 0x1p-10f) + 4;
+}
+#define MOST_SPREAD 0x1.fp30f
+
+// |c|^2 without 64 bits, from the origin, next to a box's centre: c is whole * 2^FRACTION_BITS + rest along
+// each axis.
+typedef struct {
+  uint8 high, low;
+} squares_t;
+static inline squares_t squares_of(places8_t p) {
+  p = moved(p, (int4)(HALF, HALF, HALF, 0) * SPACINGS);
+  const uint8 wx = as_uint8(p.x >> FRACTION_BITS), rx = as_uint8(p.x) & (ONE - 1u);
+  const uint8 wy = as_uint8(p.y >> FRACTION_BITS), ry = as_uint8(p.y) & (ONE - 1u);
+  uint8 rests = rx * rx + ry * ry, wholes = wx * wx + wy * wy, mixed = wx * rx + wy * ry;
+  if (IS_VOLUME) {
+    const uint8 wz = as_uint8(p.z >> FRACTION_BITS), rz = as_uint8(p.z) & (ONE - 1u);
+    rests += rz * rz, wholes += wz * wz, mixed += wz * rz;
+  }
+  squares_t squares;
+  squares.high = (wholes << (FRACTION_BITS - 1)) + mixed + (rests >> LOW_BITS);
+  squares.low = rests & ((1u << LOW_BITS) - 1);
+  return squares;
+}
+
+// Labels a box of which a list has the places, relative to its centre; false if keys do not hold them.
+NOINLINE static bool label_by_keys(const scene_t* scene, const list_t* list, int count, box_t b) {
+  if (count > MOST_OF_KEYS) return false;
+  const int bits = 32 - (int)clz((uint)max(count - 1, 1));
+  if (is_inside(scene, b)) {  // the labels' lines come while keys are made
+    for (int z = 0; z < b.sz; ++z) {
+      for (int y = 0; y < b.sy; ++y) {
+        FETCH_LINE(scene->labels + index_of(scene, b.x, b.y + y, b.z + z));
+      }
+    }
+  }
+  if (spread_of_keys(list, count, b) * (float)(1 << bits) >= MOST_SPREAD) return false;
+  places_t places;
+  uint base = 0;
+  for (int k = 0; k < count; k += 8) {
+    const places8_t p = load_from_list(list, k);
+#if IS_MANHATTAN
+    const int8 x = p.x - HALF, y = p.y - HALF;
+    const uint8 high = 0, low = 0;
+    if (k == 0) base = abs(list->x[0] - HALF) + abs(list->y[0] - HALF);
+#else
+    const int8 x = p.x - list->x[0], y = p.y - list->y[0];
+    const squares_t squares = squares_of(p);
+    const uint8 high = squares.high, low = squares.low;
+    if (k == 0) base = high.s0;
+#endif
+    store_ints(x, places.x + k), store_ints(y, places.y + k);
+#if IS_VOLUME
+    store_ints(p.z - list->z[0], places.z + k);
+#endif
+    store_uints(high - base, places.high + k);
+    store_ints(as_int8(low), places.low + k);
+  }
+  rank_places(scene, list->at, &places, count);
+  for (int i = 0; i < count; ++i) places.labels[places.rank[i]] = scene->ids[list->at[i]];
+  if (b.sx == 16) {
+    label_rows_of_16(scene, b, &places, count, bits);
   } else {
-    find_16_by_keys(&places, count, bits, subtracted, out);
+    label_rows_of_8(scene, b, &places, count, bits);
+  }
+  return true;
+}
+
+// The same of a box of eight columns and more places: keys without ranks, and beside the least one the place
+// that it is of. Voxels where two places have the least key are compared in 64 bits.
+#define ROWS 4
+NOINLINE static bool label_many(const scene_t* scene, const list_t* list, int count, box_t b) {
+  if (spread_of_keys(list, count, b) >= MOST_SPREAD) return false;
+#if IS_MANHATTAN
+  const uint base = abs(list->x[0] - HALF) + abs(list->y[0] - HALF);
+#else
+  uint high[LIST_ROOM];
+  for (int k = 0; k < count; k += 8) store_uints(squares_of(load_from_list(list, k)).high, high + k);
+#endif
+  const uint8 columns = as_uint8(EIGHT - 4);
+  const bool inside = is_inside(scene, b);
+  for (int z = 0; z < min(b.sz, scene->size.z - b.z); ++z) {
+    for (int y = 0; y < b.sy; y += ROWS) {
+      int8 least[ROWS], best[ROWS], is_tie[ROWS];
+#pragma unroll
+      for (int r = 0; r < ROWS; ++r) least[r] = INT_MAX, best[r] = 0, is_tie[r] = 0;
+      for (int i = 0; i < count; ++i) {
+#if IS_MANHATTAN
+        const uint8 of_columns = absolute(list->x[i] - HALF - as_int8(columns) * ONE) - base;
+#else
+        const uint from_x = (uint)(list->x[i] - list->x[0]) * SPACING_X;
+        const uint from_y = (uint)(list->y[i] - list->y[0]) * SPACING_Y;
+        uint of_row = high[i] - high[0] - (uint)(y - b.sy / 2) * from_y;
+#if IS_VOLUME
+        of_row -= (uint)(z - b.sz / 2) * ((uint)(list->z[i] - list->z[0]) * SPACING_Z);
+#endif
+        uint8 keys = of_row - columns * from_x;
+#endif
+#pragma unroll
+        for (int r = 0; r < ROWS; ++r) {
+#if IS_MANHATTAN
+          const uint8 keys = of_columns + abs(list->y[i] - HALF - (y + r - b.sy / 2) * ONE);
+#endif
+          const int8 key = as_int8(keys), is_less = key < least[r];
+          is_tie[r] = (is_tie[r] & ~is_less) | (key == least[r]);
+          best[r] = select(best[r], (int8)i, is_less);
+          least[r] = min(least[r], key);
+#if !IS_MANHATTAN
+          keys -= from_y;
+#endif
+        }
+      }
+      for (int r = 0; r < ROWS; ++r) {
+        uint lane[8];
+        store_uints(as_uint8(best[r]), lane);
+        for (int i = 0; i < 8; ++i) lane[i] = scene->ids[list->at[lane[i]]];
+        show_eight(scene, inside, b.x, b.y + y + r, b.z + z, vload8(0, lane));
+        if (b.y + y + r >= scene->size.y) continue;
+        for (uint rest = mask_of(is_tie[r] & (EIGHT < scene->size.x - b.x)); rest != 0; rest &= rest - 1) {
+          const int at_x = b.x + 31 - (int)clz(rest & (0 - rest)), at_y = b.y + y + r, at_z = b.z + z;
+          scene->labels[index_of(scene, at_x, at_y, at_z)] =
+              compare_at(scene, b, list, count, at_x, at_y, at_z);
+        }
+      }
+    }
   }
   return true;
 }

@@ -1,21 +1,84 @@
-// The program of exact diagrams of points in the group shape, for devices whose work-items have little memory each: a
-// work-item labels a pixel, by all places of the bins around it, in integers.
+// The program of exact diagrams of points in planes in the group shape, for devices whose work-items have
+// little memory each: a work-item labels a pixel, by all places of the bins around it, in integers.
 
-#include "exact/gather.cl"
+#include "exact/walk.cl"
+
+// --- the index: a counting sort whose items take one place each ---
+//
+// The entry behind that of a bin counts its places, then is the next place of the bin's in the list, and in
+// the end where the bin ends. Rows of bins stand in any order in the list, and so do the places of one bin.
+
+kernel void count_places(global const given_t* restrict given, uint count, int4 bits, int4 size,
+                         global uint* restrict starts) {
+  const bins_t bins = bins_of(bits, size);
+  const uint item = (uint)get_global_id(0);
+  if (item < count && is_given(given[item])) atomic_inc(starts + bin_of(&bins, place_of(given[item])) + 1);
+}
+
+// Gives each row of bins its part of the list. Behind the bins stands how much is given.
+kernel void start_bins(global uint* restrict starts, int4 bits, int4 size) {
+  const bins_t bins = bins_of(bits, size);
+  const uint row = (uint)get_global_id(0), rows = (uint)bins.rows, each = (uint)bins.columns + 1;
+  if (row >= rows) return;
+  global uint* const own = starts + row * each;
+  uint sum = 0;
+  for (uint x = 1; x < each; ++x) sum += own[x];
+  uint at = atomic_add(starts + rows * each, sum);
+  own[0] = at;
+  for (uint x = 1; x < each; ++x) {
+    const uint some = own[x];
+    own[x] = at;
+    at += some;
+  }
+}
+
+// Writes the lists: places, and the ids of their seeds, which are the places' own numbers unless they are
+// given.
+kernel void list_places(global const given_t* restrict given, global const uint* restrict ids, int has_ids,
+                        uint count, int4 bits, int4 size, global uint* restrict starts,
+                        global int* restrict xs, global int* restrict ys, global uint* restrict ids_of_list) {
+  const bins_t bins = bins_of(bits, size);
+  const uint item = (uint)get_global_id(0);
+  if (item >= count || !is_given(given[item])) return;
+  const int4 place = place_of(given[item]);
+  const places_of_bins_t places = {xs, ys, 0, ids_of_list};
+  put(&places, atomic_inc(starts + bin_of(&bins, place) + 1), place, has_ids ? ids[item] : item);
+}
+
+// A work-group of one item has a row of bins.
+kernel void drop_repeats(global uint* restrict starts, int4 bits, int4 size, global int* restrict xs,
+                         global int* restrict ys, global uint* restrict ids) {
+  local uint seen[1 << TABLE_BITS];
+  const bins_t bins = bins_of(bits, size);
+  const int row = (int)get_global_id(0);
+  if (row >= bins.rows) return;
+  const places_of_bins_t places = {xs, ys, 0, ids};
+  drop_repeats_of_row(&places, starts + row * (bins.columns + 1), bins.columns, seen);
+}
+
+// --- labels ---
 
 typedef struct {
-  ulong distance;
+  ulong distance;  // squared if Euclidean
   uint place;
 } winner_t;
 
-static inline winner_t nearest_in(const scene_t* scene, span_t x, span_t y, int2 centre) {
+static inline ulong length_of(int x, int y) {
+#if IS_MANHATTAN
+  return (ulong)abs(x) + (ulong)abs(y);
+#else
+  return (ulong)((long)x * x) + (ulong)((long)y * y);
+#endif
+}
+
+static inline winner_t nearest_in(const scene_t* scene, span_t x, span_t y, int4 centre) {
   winner_t best = {ULONG_MAX, 0};
-  walk_t walk = walk_over(scene, x, y);
-  uint2 range;
-  while (next_range(scene, &walk, &range)) {
-    const int2 origin = origin_of(scene, &walk, centre);
-    for (uint at = range.s0; at < range.s1; ++at) {
-      const ulong distance = length_of(scene->list[at] - origin);
+  walk_t walk = walk_over(scene, x, y, span_of(0, 0));
+  uint from, to;
+  int4 origin;
+  while (next_range(scene, &walk, centre, &from, &to, &origin)) {
+    for (uint at = from; at < to; ++at) {
+      const ulong distance = length_of(scene->x[at] - origin.x, scene->y[at] - origin.y);
       if (distance > best.distance) continue;
       if (distance == best.distance && !comes_first(scene, at, best.place)) continue;
       best.distance = distance;
@@ -27,45 +90,45 @@ static inline winner_t nearest_in(const scene_t* scene, span_t x, span_t y, int2
 
 // How many pixels away a place may be that is no farther than so many units.
 static inline float pixels_of(ulong distance) {
-#ifdef VOROCL_EUCLIDEAN
-  return sqrt((float)distance) * ((1 + 0x1p-20f) / ONE_PIXEL);
-#else
-  return (float)distance * ((1 + 0x1p-20f) / ONE_PIXEL);
-#endif
+  return (IS_MANHATTAN ? (float)distance : sqrt((float)distance)) * ((1 + 0x1p-20f) / ONE);
 }
 
-static inline span_t widened(span_t span, span_t limits) {
-  const int length = span.to - span.from + 1;
-  return clamped(span_of(span.from - length, span.to + length), limits);
+static inline span_t joined(span_t a, span_t b) { return span_of(min(a.from, b.from), max(a.to, b.to)); }
+// So many pixels more at both ends, within limits. A reach can be longer than the numbers of pixels.
+static inline span_t widened(span_t span, float reach, span_t limits) {
+  const int more = (int)fmin(reach, (float)(1 << 21)) + 2;
+  return clamped(span_of(span.from - more, span.to + more), limits);
 }
 
 static inline uint label_of(const scene_t* scene, int column, int row) {
+  const box_t own = box_at(column, row, 0, 1, 1, 1);
+  const cuboid_t limits = limits_around(scene, own);
+  const int4 bits = scene->bins.bits, centre = centre_of(own);
   const span_t own_x = span_of(column, column), own_y = span_of(row, row);
-  const span_t limits_x = limits_of(own_x, scene->width, PERIODIC_X);
-  const span_t limits_y = limits_of(own_y, scene->height, PERIODIC_Y);
-  const int2 centre = (int2)(column, row) * ONE_PIXEL + HALF_PIXEL;
-  span_t x = clamped(with_bins_around(own_x, 1, scene->bins.bits), limits_x);
-  span_t y = clamped(with_bins_around(own_y, 1, scene->bins.bits), limits_y);
+  span_t x = clamped(with_bins_around(own_x, 1, bits.x), limits.x);
+  span_t y = clamped(with_bins_around(own_y, 1, bits.y), limits.y);
   while (true) {
     const winner_t best = nearest_in(scene, x, y, centre);
     const bool has_none = best.distance == ULONG_MAX;
     const float reach = pixels_of(best.distance);
-    const span_t needed_x = has_none ? widened(x, limits_x) : clamped(span_of_reach(own_x, reach, reach), limits_x);
-    const span_t needed_y = has_none ? widened(y, limits_y) : clamped(span_of_reach(own_y, reach, reach), limits_y);
+    const span_t needed_x =
+        has_none ? widened(x, (float)(x.to - x.from), limits.x) : widened(own_x, reach, limits.x);
+    const span_t needed_y =
+        has_none ? widened(y, (float)(y.to - y.from), limits.y) : widened(own_y, reach, limits.y);
     if (holds(x, needed_x) && holds(y, needed_y)) return has_none ? NO_LABEL : scene->ids[best.place];
     x = joined(x, needed_x);
     y = joined(y, needed_y);
   }
 }
 
-// Labels all pixels; those outside the region (left, top, right, bottom, both ends included) get no label.
-kernel void label_pixels(global const uint* restrict starts, global const int2* restrict list,
-                         global const uint* restrict ids, global const int2* restrict order, int has_images, int bits,
-                         int width, int height, int4 region, global uint* restrict out) {
-  const int item = (int)get_global_id(0), column = item % width, row = item / width;
-  if (row >= height) return;
-  const scene_t scene = {bins_of(bits, width, height), width, height, starts, list, ids, has_images ? order : 0,
-                         out, region};
-  const bool has_label = column >= region.s0 && column <= region.s2 && row >= region.s1 && row <= region.s3;
-  out[item] = has_label ? label_of(&scene, column, row) : NO_LABEL;
+// Labels all pixels; those outside the region from `first` to `last` get no label.
+kernel void label_pixels(global const uint* restrict starts, global const int* restrict xs,
+                         global const int* restrict ys, global const uint* restrict ids,
+                         global const int2* restrict order, int has_images, int4 bits, int4 size, int4 first,
+                         int4 last, global uint* restrict out) {
+  const int item = (int)get_global_id(0), column = item % size.x, row = item / size.x;
+  if (row >= size.y) return;
+  const scene_t scene = {bins_of(bits, size),    size,  starts, xs, ys, 0, ids,
+                         has_images ? order : 0, first, last,   out};
+  out[item] = has_label(&scene, column, row, 0) ? label_of(&scene, column, row) : NO_LABEL;
 }

@@ -1,11 +1,12 @@
-// The numbers that the kernels of exact diagrams of planes and their host agree on. Read by both.
+// The numbers that the kernels of exact diagrams by places, of planes and of volumes, and their host agree
+// on. Read by both.
 
 #ifndef VOROCL_EXACT_SIZES
 #define VOROCL_EXACT_SIZES
 
-// Positions of points are whole numbers of 2^-MOST_FRACTION_BITS pixels, and int32, as are their differences from all
-// pixels of a window, whose sides have at most 2^SIDE_BITS. No place is more than 2^AWAY_BITS pixels from the window's
-// first one.
+// Positions of points are whole numbers of 2^-MOST_FRACTION_BITS pixels, and int32, as are their differences
+// from all pixels of a window, whose sides have at most 2^SIDE_BITS. No place is more than 2^AWAY_BITS pixels
+// from the window's first one.
 #define MOST_FRACTION_BITS 12
 #define SIDE_BITS 15
 #define AWAY_BITS 18
@@ -13,19 +14,16 @@
 #error "The way from a pixel to a place does not fit in an int"
 #endif
 
-// A work-item labels a tile of so many pixels a side or, where there are few places, a region of so many tiles.
-#define TILE_SIDE 64
-#define TILES_OF_REGION 4
-#define REGION_SIDE (TILES_OF_REGION * TILE_SIDE)
+// A work-item labels so many pixels along the sides of a plane, or of a volume.
+#define SIDE_OF_PLANE 64
+#define SIDE_OF_VOLUME 32
 
-// Lists are read in whole vectors of LANES_OF_POINTS values: int8, uint8, float8.
-#define LANES_OF_POINTS 8
-#if LANES_OF_POINTS != 8
-#error "The vectors of lists have eight lanes"
-#endif
+#define BUCKETS 256       // of rows of bins, into which places are sorted first
+#define PLACES_OF_BIN 4   // about
+#define BEHIND_PLACES 16  // values behind each list of the index, which is read in whole vectors
 
-// SEEDS OUTSIDE THE PIXELS (see outer.cl). The side of the boxes that have a list of them, as a power of two; the
-// entries of a list; how many seeds or boxes a node of their tree holds, as a power of two.
+// SEEDS OUTSIDE THE PIXELS (see outer.cl). The side of the boxes that have a list of them, as a power of two;
+// the entries of a list; how many seeds or boxes a node of their tree holds, as a power of two.
 #define OUTER_BOX_BITS 4
 #define OUTER_BOX (1 << OUTER_BOX_BITS)
 #define OUTER_FAN_BITS 3

@@ -2,10 +2,9 @@
 
 #include "core/diagram_state.hpp"
 #include "exact/group_shape.hpp"
-#include "exact/plane.hpp"
+#include "exact/places.hpp"
 #include "globe/globe.hpp"
 #include "masks/exact_diagram.hpp"
-#include "points/exact_diagram.hpp"
 
 namespace vorocl {
 
@@ -15,9 +14,8 @@ Report exact_diagram(const Seeds& seeds, Diagram& diagram, const ExactOptions& o
   if (options.metric == Metric::great_circle) return exact_diagram_on_globe(filling, state);
   if (state.grid.is_volume()) check_exact_volume(filling, state);
   if (labels_by_passes(filling, state)) return exact_diagram_by_passes(filling, state);
-  if (state.grid.is_volume()) return exact_diagram_of_volume(filling, state);
   const bool in_groups = state.device.tuning().shape == Shape::group && !filling.seeds().are_points;
-  return in_groups ? exact_diagram_in_groups(filling, state) : exact_diagram_of_plane(filling, state);
+  return in_groups ? exact_diagram_in_groups(filling, state) : exact_diagram_by_places(filling, state);
 }
 
 }  // namespace vorocl

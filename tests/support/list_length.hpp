@@ -17,7 +17,7 @@ inline const char* name_of(ListLength lists) {
   return lists == ListLength::full ? "full lists" : "short lists";
 }
 
-/// The build options by which nearly every list overflows (kernels/exact, kernels/points, kernels/masks).
+/// The build options by which nearly every list overflows (kernels/exact, kernels/masks).
 /// tools/checks/kernels.sh reads them here.
 constexpr const char* short_lists =
     "-DOUTER_LIST=8 -DMOST_GATHERED=2 -DMOST_RANKED=2 -DSTACK=SHORTEST_STACK "

@@ -30,11 +30,16 @@ builds_of() { # KERNEL
     echo "1 -DVOROCL_EUCLIDEAN -DVOROCL_NEIGHBOURS=9"
     return
   fi
-  if [[ $kernel == kernels/points/* ]]; then  # Euclidean volumes, with vectors of their own
+  if [[ $kernel == kernels/exact/diagram.cl ]]; then  # planes, and Euclidean volumes, with vectors of its own
     for places in '' -DVOROCL_FRACTIONS "-DVOROCL_FRACTIONS $short_lists"; do
       for axes in '' '-DVOROCL_PERIODIC_X -DVOROCL_PERIODIC_Y -DVOROCL_PERIODIC_Z' \
         '-DVOROCL_SPACING_X=2 -DVOROCL_SPACING_Y=1 -DVOROCL_SPACING_Z=4'; do
-        echo "1 -DVOROCL_EUCLIDEAN -DVOROCL_NEIGHBOURS=9 $places $axes"
+        echo "1 -DVOROCL_EUCLIDEAN -DVOROCL_DIMENSIONS=3 -DVOROCL_NEIGHBOURS=9 $places $axes"
+      done
+      for metric in EUCLIDEAN MANHATTAN; do
+        for axes in '' '-DVOROCL_PERIODIC_X -DVOROCL_PERIODIC_Y'; do
+          echo "1 -DVOROCL_$metric -DVOROCL_NEIGHBOURS=9 $places $axes"
+        done
       done
     done
     return

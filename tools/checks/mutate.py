@@ -38,12 +38,12 @@ OPERATORS = [
 FLOODING = "jump_flooding standard_flooding dynamic_jump_flooding low_resolution any_motion"
 MEASURES = "c_api_measures similarity window_measures fields cells relaxation adjacency distance_errors cell_table true_measures"
 TESTS = [
-    ("kernels/exact/*", "core", "group_shape window exact_diagram"), ("kernels/flooding/*", "core", FLOODING),
+    ("kernels/exact/*", "core", "group_shape window exact_diagram volume_points"), ("kernels/flooding/*", "core", FLOODING),
     ("kernels/core/axis.cl", "core", "place"), ("kernels/core/place.cl", "core", "place point_buffers"),
     ("kernels/core/p*", "core", f"window seeds motion place {FLOODING} {MEASURES}"),
     ("kernels/core/*", "core", f"seeds displacement point_buffers tiles {FLOODING} {MEASURES}"),
     ("kernels/motion/*", "core", "motion seeds"), ("kernels/exact_cells/*", "core", "exact_cells exact_volumes"),
-    ("kernels/masks/*", "core", "distance_transform"), ("kernels/points/*", "core", "volume_points volumes"),
+    ("kernels/masks/*", "core", "distance_transform"),
     ("kernels/*", "core", MEASURES),
     ("src/flooding/*plan.cpp", "core", "plan"), ("src/core/grid.cpp", "core", "axis grid plan"),
     ("src/core/*.cpp", "core", "axis seeds tiles displacement point_buffers window window_measures"),

@@ -1,16 +1,17 @@
 // Walking the bins around a box, row by row, images of them along periodic axes included.
 //
-// BALLS. What is nearest at a corner of a box lies in the ball around it through any known place. What is nearest
-// anywhere in the box lies in one of the eight balls: a ball around a voxel centre of the box, through the same place,
-// lies in their union. So each row of bins has its own stretch along x, or none.
+// BALLS. What is nearest at a corner of a box lies in the ball around it through any known place. What is
+// nearest anywhere in the box lies in one of these balls: a ball around a pixel centre of the box, through
+// the same place, lies in their union. So each row of bins has its own stretch along x, or none. (By the
+// Manhattan metric balls are diamonds, and so it is with them.)
 
-#ifndef VOROCL_POINTS_WALK
-#define VOROCL_POINTS_WALK
+#ifndef VOROCL_EXACT_WALK
+#define VOROCL_EXACT_WALK
 
-#include "points/lists.cl"
+#include "exact/lists.cl"
 
 typedef struct {
-  int from, to;  // voxels of an axis, both ends included
+  int from, to;  // pixels of an axis, both ends included
 } span_t;
 typedef struct {
   span_t x, y, z;
@@ -23,7 +24,9 @@ static inline span_t span_of(int from, int to) {
 static inline span_t clamped(span_t s, span_t limits) {
   return span_of(clamp(s.from, limits.from, limits.to), clamp(s.to, limits.from, limits.to));
 }
-static inline bool holds(span_t outer, span_t inner) { return inner.from >= outer.from && inner.to <= outer.to; }
+static inline bool holds(span_t outer, span_t inner) {
+  return inner.from >= outer.from && inner.to <= outer.to;
+}
 static inline span_t with_bins_around(span_t s, int rings, int bits) {
   return span_of(((s.from >> bits) - rings) * (1 << bits), ((s.to >> bits) + rings + 1) * (1 << bits) - 1);
 }
@@ -45,12 +48,14 @@ static inline span_t of_image(span_t s, int image, int size, int periodic) {
   return periodic ? span_of(max(s.from - image * size, 0), min(s.to - image * size, size - 1)) : s;
 }
 
-// Centres and squared radii, in units of the spacing.
+// Centres and radii, squared if Euclidean, in units of the spacing. Of a plane's four balls there are two
+// each.
 typedef struct {
-  float8 x, y, z, square;
+  float8 x, y, z, n;
 } balls_t;
 
-static inline float8 with_margin(float8 square) { return square * (1 + 0x1p-16f) + 0x1p-4f; }
+static inline float8 with_margin(float8 n) { return n * (1 + 0x1p-16f) + 0x1p-4f; }
+static inline float8 radius_of(float8 n) { return IS_MANHATTAN ? n : sqrt(n); }
 
 static inline balls_t balls_around(box_t b, float4 place) {
   const float4 half_way = between_centres(b) / 2, centre = convert_float4(centre_of(b)) * (1.f / ONE);
@@ -58,10 +63,14 @@ static inline balls_t balls_around(box_t b, float4 place) {
   const float8 sides_y = (float8)(-1, -1, 1, 1, -1, -1, 1, 1) * half_way.y;
   const float8 sides_z = (float8)(-1, -1, -1, -1, 1, 1, 1, 1) * half_way.z;
   const float8 x = sides_x - place.x * (1.f / ONE), y = sides_y - place.y * (1.f / ONE);
-  const float8 z = sides_z - place.z * (1.f / ONE);
   balls_t balls;
   balls.x = sides_x + centre.x, balls.y = sides_y + centre.y, balls.z = sides_z + centre.z;
-  balls.square = with_margin(x * x + y * y + z * z);
+#if IS_MANHATTAN
+  balls.n = with_margin(fabs(x) + fabs(y));
+#else
+  const float8 z = sides_z - place.z * (1.f / ONE);
+  balls.n = with_margin(x * x + y * y + z * z);
+#endif
   return balls;
 }
 // One ball, in each lane.
@@ -69,9 +78,11 @@ static inline balls_t ball_around(int4 centre, float4 place) {
   const float4 middle = convert_float4(centre) * (1.f / ONE), way = place * (1.f / ONE);
   balls_t ball;
   ball.x = middle.x, ball.y = middle.y, ball.z = middle.z;
-  ball.square = with_margin((float8)(way.x * way.x + way.y * way.y + way.z * way.z));
+  ball.n = with_margin((float8)distance_of(way));
   return ball;
 }
+
+#define ROWS_OF_BALLS 6
 
 // A box of bins: ranges of the list, and where the images of their places lie.
 typedef struct {
@@ -99,27 +110,36 @@ static inline walk_t walk_over(const scene_t* scene, span_t x, span_t y, span_t 
   w.x = x, w.y = y, w.z = z;
   w.has_balls = false;
   w.image_x = 1, w.last_x = 0;
-  w.image_y = image_at(y.from, scene->size.y, PERIODIC_Y), w.last_y = image_at(y.to, scene->size.y, PERIODIC_Y);
-  w.image_z = image_at(z.from, scene->size.z, PERIODIC_Z), w.last_z = image_at(z.to, scene->size.z, PERIODIC_Z);
+  w.image_y = image_at(y.from, scene->size.y, PERIODIC_Y),
+  w.last_y = image_at(y.to, scene->size.y, PERIODIC_Y);
+  w.image_z = image_at(z.from, scene->size.z, PERIODIC_Z),
+  w.last_z = image_at(z.to, scene->size.z, PERIODIC_Z);
   enter_z(scene, &w);
   enter_y(scene, &w);
   return w;
 }
 
 // How far outside a range centres are.
-static inline float8 outside(float8 at, int from, int to) { return fmax(fmax((float)from - at, at - (float)to), 0.f); }
+static inline float8 outside(float8 at, float from, float to) { return fmax(fmax(from - at, at - to), 0.f); }
 
-// The voxels along x of the present row that the balls meet; false if there are none.
+// The pixels along x of the present row that the balls meet; false if there are none.
 static inline bool row_in_balls(const scene_t* scene, walk_t* w) {
   w->row = w->x;
   if (!w->has_balls) return true;
   const int4 bits = scene->bins.bits;
   const int y = (w->row_y << bits.y) + w->image_y * scene->size.y;
   const int z = (w->row_z << bits.z) + w->image_z * scene->size.z;
-  const float8 dy = outside(w->balls.y, y * SPACING_Y, (y + (1 << bits.y)) * SPACING_Y);
-  const float8 dz = outside(w->balls.z, z * SPACING_Z, (z + (1 << bits.z)) * SPACING_Z);
-  const float8 rest = w->balls.square - dy * dy - dz * dz;
-  const float8 reach = sqrt(fmax(rest, 0.f));
+  // Places outside a window stand in the bins at its border.
+  const float north = !PERIODIC_Y && w->row_y == 0 ? -INFINITY : (float)(y * SPACING_Y);
+  const float south =
+      !PERIODIC_Y && w->row_y == scene->bins.rows - 1 ? INFINITY : (float)((y + (1 << bits.y)) * SPACING_Y);
+  const float8 dy = outside(w->balls.y, north, south);
+  float8 rest = w->balls.n - (IS_MANHATTAN ? dy : dy * dy);
+  if (IS_VOLUME) {
+    const float8 dz = outside(w->balls.z, (float)(z * SPACING_Z), (float)((z + (1 << bits.z)) * SPACING_Z));
+    rest -= dz * dz;
+  }
+  const float8 reach = radius_of(fmax(rest, 0.f));
   const int8 misses = rest < 0.f;
   const float west = least_float(select(w->balls.x - reach, (float8)INFINITY, misses)) * (1.f / SPACING_X);
   const float east = -least_float(select(-w->balls.x - reach, (float8)INFINITY, misses)) * (1.f / SPACING_X);
@@ -129,9 +149,10 @@ static inline bool row_in_balls(const scene_t* scene, walk_t* w) {
   return w->row.from <= w->row.to;
 }
 
-// The next range that is not empty; false at the end. `origin`: what is subtracted from its places, a centre in the
-// image's place.
-static inline bool next_range(const scene_t* scene, walk_t* w, int4 centre, uint* from, uint* to, int4* origin) {
+// The next range that is not empty; false at the end. `origin`: what is subtracted from its places, a centre
+// in the image's place.
+static inline bool next_range(const scene_t* scene, walk_t* w, int4 centre, uint* from, uint* to,
+                              int4* origin) {
   const bins_t* const bins = &scene->bins;
   while (true) {
     for (; w->image_x <= w->last_x; ++w->image_x) {
@@ -167,19 +188,20 @@ static inline bool next_range(const scene_t* scene, walk_t* w, int4 centre, uint
   }
 }
 
-// The voxels of an axis that balls meet, and one more at both ends.
+// The pixels of an axis that balls meet, and one more at both ends.
 static inline span_t span_of_balls(float8 at, float8 reach, int spacing, span_t limits) {
   const float most = 1 << 20;
-  const float from = least_float(at - reach) / (float)spacing, to = -least_float(-at - reach) / (float)spacing;
+  const float from = least_float(at - reach) / (float)spacing,
+              to = -least_float(-at - reach) / (float)spacing;
   return clamped(span_of((int)fmax(from - 1, -most), (int)fmin(to + 1, most)), limits);
 }
 static inline walk_t walk_over_balls(const scene_t* scene, const cuboid_t* limits, balls_t balls) {
-  const float8 reach = sqrt(balls.square);
+  const float8 reach = radius_of(balls.n);
   walk_t walk = walk_over(scene, span_of_balls(balls.x, reach, SPACING_X, limits->x),
                           span_of_balls(balls.y, reach, SPACING_Y, limits->y),
-                          span_of_balls(balls.z, reach, SPACING_Z, limits->z));
+                          IS_VOLUME ? span_of_balls(balls.z, reach, SPACING_Z, limits->z) : span_of(0, 0));
   walk.balls = balls;
-  walk.has_balls = true;
+  walk.has_balls = IS_VOLUME || ((walk.y.to - walk.y.from) >> scene->bins.bits.y) >= ROWS_OF_BALLS;
   return walk;
 }
 // The walk over all that may win in a box where a place is known.

@@ -1,43 +1,52 @@
-// Dense places: an image of keys of a tile, into which each place of the tile and around it takes minima, `side` rows
-// by `side` rows, one or two vectors each. The `side` voxels of an axis that are nearest to a place hold all voxel
-// centres that are less than side / 2 away, so a voxel whose least distance is below that is done. Others are searched.
+// Dense places: an image of keys of a tile, into which each place of the tile and around it takes minima,
+// `side` rows by `side` rows, one or two vectors each. The `side` pixels of an axis that are nearest to a
+// place hold all pixel centres that are less than side / 2 away, so a pixel whose least distance is below
+// that is done. Others are searched.
 //
-// Keys are as in keys.cl, with the origin of each place at the first voxel of its stamp: that moves by whole voxels, so
-// the low bits of |c|^2 stay, and |p|^2 is added, so that keys of places with other origins compare.
+// Keys are as in keys.cl, with the origin of each place at the first pixel of its stamp: that moves by whole
+// pixels, so the low bits of |c|^2 stay, and |p|^2 is added, so that keys of places with other origins
+// compare.
 
-#ifndef VOROCL_POINTS_STAMPS
-#define VOROCL_POINTS_STAMPS
+#ifndef VOROCL_EXACT_STAMPS
+#define VOROCL_EXACT_STAMPS
 
-#include "points/keys.cl"
+#include "exact/keys.cl"
 
 #define STAMP_PAD 16
-#define STAMP_ROW (REGION + 2 * STAMP_PAD)
+#define STAMP_SIDE (IS_VOLUME ? SIDE_OF_VOLUME : SIDE_OF_PLANE)  // of the image
+#define STAMP_ROW (STAMP_SIDE + 2 * STAMP_PAD)
 #define SLICE_PAD 16
-#define STAMP_SLICE (STAMP_ROW * REGION + SLICE_PAD)  // no multiple of 4096 bytes: stores would wait for each other
+#define STAMP_SLICE \
+  (STAMP_ROW * STAMP_SIDE + SLICE_PAD)  // no multiple of 4096 bytes: stores would wait for each other
+#define STAMP_SLICES (IS_VOLUME ? STAMP_SIDE : 1)
 #ifndef MOST_STAMPS
 #define MOST_STAMPS 12288
 #endif
 #define STAMP_ROOM (MOST_STAMPS + 16)
-#define MOST_STAMP_SIDE 12
+#define MOST_STAMP_SIDE (IS_VOLUME ? 12 : 14)
 #define NO_KEY 0xffffffffu  // in the image
-#define LEFT_PART 32  // a tile of which a greater part is left by its stamps is left to lists
+#define LEFT_PART 32        // a tile of which a greater part is left by its stamps is left to lists
 #define SORT_BITS 12
 #define SORT_BUCKETS (1 << SORT_BITS)
 
 typedef struct {
-  int x[STAMP_ROOM], y[STAMP_ROOM], z[STAMP_ROOM];  // units from the tile's corner; then from the first voxel's centre
-  int first_y[STAMP_ROOM], first_z[STAMP_ROOM];     // first voxels, from the tile's corner
-  int offset[STAMP_ROOM];                           // of the first voxel in the image
-  uint high[STAMP_ROOM], low[STAMP_ROOM];           // of |c|^2
-  uint along[STAMP_ROOM];                           // own positions along the first axis of the tie rule
+  int x[STAMP_ROOM], y[STAMP_ROOM];  // units from the tile's corner; then from the first pixel's centre
+  int first_y[STAMP_ROOM];           // first pixels, from the tile's corner
+#if IS_VOLUME
+  int z[STAMP_ROOM], first_z[STAMP_ROOM];
+#endif
+  int offset[STAMP_ROOM];  // of the first pixel in the image
+  uint high[STAMP_ROOM];   // of |c|^2
+  int low[STAMP_ROOM];
+  int along[STAMP_ROOM];  // own positions along the first axis of the tie rule
   uint at[STAMP_ROOM];
   uint labels[STAMP_ROOM];  // by rank
   uint rank[STAMP_ROOM];
   ulong order[STAMP_ROOM];
-  uint image[STAMP_SLICE * REGION];
+  uint image[STAMP_SLICE * STAMP_SLICES];
 } stamps_t;
 
-// The first of the `side` voxels of an axis that are nearest to a place.
+// The first of the `side` pixels of an axis that are nearest to a place.
 #define FIRST_OF(place, side) ((((place) + ((side) % 2 ? 0 : HALF)) >> FRACTION_BITS) - (side) / 2)
 
 // The seeds whose stamps meet the tile; OVERFLOW if there are too many.
@@ -56,91 +65,90 @@ NOINLINE static int gather_stamps(const scene_t* scene, box_t tile, int side, st
       if (count > MOST_STAMPS - 8) return OVERFLOW;
       const places8_t p = load_from_index(scene, at, origin);
       const int8 x = FIRST_OF(p.x, side), y = FIRST_OF(p.y, side), z = FIRST_OF(p.z, side);
-      const int8 meets = (x > -side) & (x < tile.sx) & (y > -side) & (y < tile.sy) & (z > -side) & (z < tile.sz) &
-                         (EIGHT < (int)(to - at));
+      int8 meets = (x > -side) & (x < tile.sx) & (y > -side) & (y < tile.sy) & (EIGHT < (int)(to - at));
+      if (IS_VOLUME) meets &= (z > -side) & (z < tile.sz);
       const uint mask = mask_of(meets);
       const uint8 lanes = lanes_of(mask);
-      store_ints(permuted_ints(p.x, lanes), s->x + count), store_ints(permuted_ints(p.y, lanes), s->y + count);
-      store_ints(permuted_ints(p.z, lanes), s->z + count);
+      store_ints(permuted_ints(p.x, lanes), s->x + count),
+          store_ints(permuted_ints(p.y, lanes), s->y + count);
       store_uints(permuted(at + as_uint8(EIGHT), lanes), s->at + count);
-      store_uints(permuted(as_uint8(p.z + origin.z), lanes), s->along + count);
+#if IS_VOLUME
+      store_ints(permuted_ints(p.z, lanes), s->z + count);
+      store_ints(permuted_ints(p.z + origin.z, lanes), s->along + count);
+#else
+      store_ints(permuted_ints(p.y + origin.y, lanes), s->along + count);
+#endif
       count += (int)popcount(mask);
     }
   }
+  for (int i = 0; !IS_VOLUME && scene->order && i < count; ++i) s->along[i] = own_y(scene, s->at[i]);
   return count;
 }
 
 // What the stamps begin with.
 NOINLINE static void prepare_stamps(int count, int side, stamps_t* s) {
   for (int k = 0; k < count; k += 8) {
-    const int8 px = vload8(0, s->x + k), py = vload8(0, s->y + k), pz = vload8(0, s->z + k);
-    const int8 x = FIRST_OF(px, side), y = FIRST_OF(py, side), z = FIRST_OF(pz, side);
-    const int8 ax = px - x * ONE - HALF, ay = py - y * ONE - HALF, az = pz - z * ONE - HALF;
-    const uint8 square = as_uint8(ax * ax + ay * ay + az * az);
-    store_ints(ax, s->x + k), store_ints(ay, s->y + k), store_ints(az, s->z + k);
-    store_ints(y, s->first_y + k), store_ints(z, s->first_z + k);
-    store_ints(z * STAMP_SLICE + y * STAMP_ROW + STAMP_PAD + x, s->offset + k);
+    const int8 px = vload8(0, s->x + k), py = vload8(0, s->y + k);
+    const int8 x = FIRST_OF(px, side), y = FIRST_OF(py, side);
+    const int8 ax = px - x * ONE - HALF, ay = py - y * ONE - HALF;
+    uint8 square = as_uint8(ax * ax + ay * ay);
+    int8 offset = y * STAMP_ROW + STAMP_PAD + x;
+    store_ints(ax, s->x + k), store_ints(ay, s->y + k), store_ints(y, s->first_y + k);
+#if IS_VOLUME
+    const int8 pz = vload8(0, s->z + k), z = FIRST_OF(pz, side), az = pz - z * ONE - HALF;
+    square += as_uint8(az * az), offset += z * STAMP_SLICE;
+    store_ints(az, s->z + k), store_ints(z, s->first_z + k);
+#endif
+    store_ints(offset, s->offset + k);
     store_uints(square >> LOW_BITS, s->high + k);
-    store_uints(square & ((1u << LOW_BITS) - 1), s->low + k);
+    store_ints(as_int8(square & ((1u << LOW_BITS) - 1)), s->low + k);
   }
 }
 
-typedef struct {
-  uint first, last;
-} range_t;
-static inline range_t range_of(const uint* values, int count) {
-  uint8 least = UINT_MAX, most = 0;
-  for (int k = 0; k < count; k += 8) {
-    const uint8 some = vload8(0, values + k);
-    const int8 is_there = EIGHT + k < count;
-    least = min(least, select((uint8)UINT_MAX, some, is_there)), most = max(most, select((uint8)0, some, is_there));
-  }
-  const range_t range = {least_uint(least), ~least_uint(~most)};
-  return range;
-}
-// How far numbers of a range are shifted right for so many bits.
-static inline uint shift_to(range_t range, uint bits) {
-  const uint size = 32 - clz(range.last - range.first);
+// How far numbers are shifted right for so many bits, less the first.
+static inline uint shift_to(extent_t extent, uint bits) {
+  const uint size = 32 - clz((uint)extent.last - (uint)extent.first);
   return size > bits ? size - bits : 0;
 }
 
-// Puts the numbers of the seeds in the order of (low bits, z, y, x, id): by buckets of low bits, then by insertion.
+// Puts the numbers of the seeds in the order of (low bits, z, y, x, id): by buckets of low bits, then by
+// insertion.
 NOINLINE static void order_stamps(const scene_t* scene, int count, stamps_t* s) {
   uint next[SORT_BUCKETS + 1];
   for (int i = 0; i <= SORT_BUCKETS; ++i) next[i] = 0;
-  const uint* const low = s->low;
-  // Buckets: by the low bits, and two more by the first axis of the tie rule, as far as there is room. Of a lattice all
-  // have the same low bits: by the first two axes.
-  const range_t along = range_of(s->along, count), lows = range_of(low, count);
+  // Buckets: by the low bits, and two more by the first axis of the tie rule, as far as there is room. Of a
+  // lattice all have the same low bits: by the first two axes.
+  const extent_t along = extent_of(s->along, count), lows = extent_of(s->low, count);
   uint bucket[STAMP_ROOM];
   if (lows.last > lows.first) {
     const uint shift = shift_to(along, 2);
     for (int k = 0; k < count; k += 8) {
-      const uint8 by_axis = min((vload8(0, s->along + k) - along.first) >> shift, (uint8)3u);
-      const uint8 composite = vload8(0, low + k) << 2 | by_axis;
+      const uint8 by_axis = min(as_uint8(vload8(0, s->along + k) - along.first) >> shift, (uint8)3u);
+      const uint8 composite = as_uint8(vload8(0, s->low + k)) << 2 | by_axis;
       store_uints(LOW_BITS + 2 > SORT_BITS ? composite >> (LOW_BITS + 2 - SORT_BITS) : composite, bucket + k);
     }
   } else {
     const uint shift = shift_to(along, SORT_BITS - 5);
     uint8 lost = 0;
     for (int k = 0; k < count; k += 8) {
-      const uint8 way = vload8(0, s->along + k) - along.first;
+      const uint8 way = as_uint8(vload8(0, s->along + k) - along.first);
       lost |= select((uint8)0, way & ((1u << shift) - 1), EIGHT + k < count);
       store_uints(min(way >> shift, (uint8)((1u << (SORT_BITS - 5)) - 1)) << 5, bucket + k);
     }
     if (!any(lost != 0u)) {
-      uint other[STAMP_ROOM];
-      for (int i = 0; i < count; ++i) other[i] = (uint)scene->y[s->at[i]];
-      const range_t others = range_of(other, count);
+      int other[STAMP_ROOM];
+      for (int i = 0; i < count; ++i) other[i] = IS_VOLUME ? scene->y[s->at[i]] : own_x(scene, s->at[i]);
+      const extent_t others = extent_of(other, count);
       const uint other_shift = shift_to(others, 5);
-      for (int i = 0; i < count; ++i) bucket[i] |= (other[i] - others.first) >> other_shift;
+      for (int i = 0; i < count; ++i) bucket[i] |= (uint)(other[i] - others.first) >> other_shift;
     }
   }
   for (int i = 0; i < count; ++i) ++next[bucket[i] + 1];
   for (int i = 0; i < SORT_BUCKETS; ++i) next[i + 1] += next[i];
   // A key: low bits, then that axis, then the number.
   for (int i = 0; i < count; ++i) {
-    s->order[next[bucket[i]]++] = (ulong)low[i] << 46 | (ulong)s->along[i] << 16 | (ulong)i;
+    s->order[next[bucket[i]]++] =
+        (ulong)s->low[i] << 48 | (ulong)(uint)(s->along[i] - along.first) << 16 | (ulong)i;
   }
   for (int i = 1; i < count; ++i) {
     const ulong own = s->order[i];
@@ -155,7 +163,8 @@ NOINLINE static void order_stamps(const scene_t* scene, int count, stamps_t* s) 
   }
 }
 
-// A part of a key: that of the first eight voxels of an axis, of which the first one's centre is so far from the seed.
+// A part of a key: that of the first eight pixels of an axis, of which the first one's centre is so far from
+// the seed.
 static inline uint8 parts_of(uint8 lanes, uint from_first, int bits) {
   return ((lanes * lanes << (FRACTION_BITS - 1)) - lanes * from_first) << bits;
 }
@@ -165,9 +174,10 @@ INLINE void stamp_row(uint* row, uint8 columns_0, uint8 columns_1, uint more, co
   if (vectors == 2) store_uints(min(vload8(1, row), columns_1 + more), row + 8);
 }
 
-// How many rows at either end of slice k are farther than side / 2 from the seed, wherever it is: the first voxels of
-// an axis are at least side / 2 - 1 away, the next ones a voxel less.
+// How many rows at either end of slice k are farther than side / 2 from the seed, wherever it is: the first
+// pixels of an axis are at least side / 2 - 1 away, the next ones a pixel less.
 static inline int rows_out(int side, int k) {
+  if (!IS_VOLUME) return 0;
   const int at = min(k, side - 1 - k);
   return side < 8 ? 0 : side == 8 ? (at == 0) : at == 0 ? 2 : at == 1 ? 1 : 0;
 }
@@ -176,8 +186,15 @@ static inline int rows_out(int side, int k) {
 INLINE void stamp_all(int count, int bits, const int side, box_t tile, stamps_t* s, const int vectors) {
   const uint8 lane_0 = as_uint8(EIGHT), lane_1 = lane_0 + 8u;
   for (int i = 0; i < count; ++i) {
-    const uint ax = (uint)s->x[i], ay = (uint)s->y[i], az = (uint)s->z[i];
-    const int y = s->first_y[i], z = s->first_z[i];
+    const uint ax = (uint)s->x[i], ay = (uint)s->y[i];
+    const int y = s->first_y[i];
+#if IS_VOLUME
+    const uint az = (uint)s->z[i];
+    const int z = s->first_z[i];
+#else
+    const uint az = 0;
+    const int z = 0;
+#endif
     const uint all = (s->high[i] << bits) + s->rank[i];
     const uint8 columns_0 = all + parts_of(lane_0, ax, bits);
     const uint8 columns_1 = vectors == 2 ? all + parts_of(lane_1, ax, bits) : (uint8)0;
@@ -203,9 +220,9 @@ INLINE void stamp_all(int count, int bits, const int side, box_t tile, stamps_t*
     }
   }
 }
-#define DEFINE_STAMP(side, vectors)                                                              \
-  NOINLINE static void stamp_##side(int count, int bits, box_t tile, stamps_t* s) {              \
-    stamp_all(count, bits, side, tile, s, vectors);                                              \
+#define DEFINE_STAMP(side, vectors)                                                 \
+  NOINLINE static void stamp_##side(int count, int bits, box_t tile, stamps_t* s) { \
+    stamp_all(count, bits, side, tile, s, vectors);                                 \
   }
 DEFINE_STAMP(3, 1)
 DEFINE_STAMP(4, 1)
@@ -215,6 +232,9 @@ DEFINE_STAMP(7, 1)
 DEFINE_STAMP(8, 1)
 DEFINE_STAMP(10, 2)
 DEFINE_STAMP(12, 2)
+#if !IS_VOLUME
+DEFINE_STAMP(14, 2)
+#endif
 
 // Labels a tile; false if it is left to lists.
 NOINLINE static bool label_by_stamps(const scene_t* scene, box_t tile, int side, stamps_t* s) {
@@ -224,7 +244,8 @@ NOINLINE static bool label_by_stamps(const scene_t* scene, box_t tile, int side,
   const int bits = 32 - (int)clz((uint)max(count - 1, 1));
   // The greatest distance of a lane.
   const int lanes = side > 8 ? 16 : 8, far_x = max(lanes - side / 2, side / 2) + 1, far_y = side / 2 + 1;
-  if ((ulong)(far_x * far_x + 2 * far_y * far_y) << (FRACTION_BITS - 1 + bits) >> 32) return false;
+  if ((ulong)(far_x * far_x + (VOROCL_DIMENSIONS - 1) * far_y * far_y) << (FRACTION_BITS - 1 + bits) >> 32)
+    return false;
   prepare_stamps(count, side, s);
   order_stamps(scene, count, s);
   const bool inside = is_inside(scene, tile);
@@ -243,14 +264,35 @@ NOINLINE static bool label_by_stamps(const scene_t* scene, box_t tile, int side,
     s->labels[i] = scene->ids[s->at[number]];
   }
   switch (side) {
-    case 3: stamp_3(count, bits, tile, s); break;
-    case 4: stamp_4(count, bits, tile, s); break;
-    case 5: stamp_5(count, bits, tile, s); break;
-    case 6: stamp_6(count, bits, tile, s); break;
-    case 7: stamp_7(count, bits, tile, s); break;
-    case 8: stamp_8(count, bits, tile, s); break;
-    case 10: stamp_10(count, bits, tile, s); break;
-    default: stamp_12(count, bits, tile, s); break;
+    case 3:
+      stamp_3(count, bits, tile, s);
+      break;
+    case 4:
+      stamp_4(count, bits, tile, s);
+      break;
+    case 5:
+      stamp_5(count, bits, tile, s);
+      break;
+    case 6:
+      stamp_6(count, bits, tile, s);
+      break;
+    case 7:
+      stamp_7(count, bits, tile, s);
+      break;
+    case 8:
+      stamp_8(count, bits, tile, s);
+      break;
+    case 10:
+      stamp_10(count, bits, tile, s);
+      break;
+#if !IS_VOLUME
+    case 14:
+      stamp_14(count, bits, tile, s);
+      break;
+#endif
+    default:
+      stamp_12(count, bits, tile, s);
+      break;
   }
   const uint limit = ((uint)(side * side << FRACTION_BITS) + 7) / 8 << bits, mask = (1u << bits) - 1;
   const int sx = min(tile.sx, scene->size.x - tile.x), sy = min(tile.sy, scene->size.y - tile.y);
@@ -269,15 +311,17 @@ NOINLINE static bool label_by_stamps(const scene_t* scene, box_t tile, int side,
       const uint* const row = s->image + z * STAMP_SLICE + y * STAMP_ROW + STAMP_PAD;
       for (int x = 0; x < sx; x += 8) {
         const uint8 keys = vload8(0, row + x);
-        // Keys of voxels without a stamp have ranks that may be too great.
+        // Keys of pixels without a stamp have ranks that may be too great.
         show_eight(scene, inside, tile.x + x, tile.y + y, tile.z + z,
                    look_up_one_by_one(s->labels, min(keys & mask, (uint8)(uint)(count - 1))));
         if (left == 0) continue;
         for (uint rest = mask_of((keys >= limit) & (EIGHT < sx - x)); rest != 0; rest &= rest - 1) {
-          const int lane = 31 - (int)clz(rest & (0 - rest)), vx = tile.x + x + lane, vy = tile.y + y, vz = tile.z + z;
-          const uint key = row[x + lane], number = (uint)(s->order[min(key & mask, (uint)count - 1)] & 0xffff);
+          const int lane = 31 - (int)clz(rest & (0 - rest)), vx = tile.x + x + lane, vy = tile.y + y,
+                    vz = tile.z + z;
+          const uint key = row[x + lane],
+                     number = (uint)(s->order[min(key & mask, (uint)count - 1)] & 0xffff);
           const uint known = key == NO_KEY ? NO_PLACE : s->at[number];
-          scene->labels[index_of(scene, vx, vy, vz)] = search_voxel(scene, vx, vy, vz, known);
+          scene->labels[index_of(scene, vx, vy, vz)] = search_pixel(scene, vx, vy, vz, known);
         }
       }
     }

@@ -1,13 +1,14 @@
 // Vectors of eight, in which places, keys and rows of voxels are taken.
 
-#ifndef VOROCL_POINTS_LANES
-#define VOROCL_POINTS_LANES
+#ifndef VOROCL_EXACT_LANES
+#define VOROCL_EXACT_LANES
 
 #define EIGHT ((int8)(0, 1, 2, 3, 4, 5, 6, 7))
 #define NOINLINE __attribute__((noinline))
 #define INLINE __attribute__((always_inline)) static inline
 
-// Has a line of the cache come, which is written to later. Oclgrind does not know what processors have for it.
+// Has a line of the cache come, which is written to later. Oclgrind does not know what processors have for
+// it.
 #if defined(__x86_64__) && !defined(__SPIR__) && !defined(__SPIR64__)
 #define FETCH_LINE(pointer) __builtin_prefetch((const void*)(size_t)(pointer), 1)
 #else
@@ -15,19 +16,19 @@
 #endif
 
 // PoCL makes vstore8() of private arrays in halves: these are one instruction.
-typedef struct __attribute__((packed)) { int8 v; } unaligned_ints;
-typedef struct __attribute__((packed)) { uint8 v; } unaligned_uints;
+typedef struct __attribute__((packed)) {
+  int8 v;
+} unaligned_ints;
+typedef struct __attribute__((packed)) {
+  uint8 v;
+} unaligned_uints;
 static inline void store_ints(int8 v, int* to) { ((unaligned_ints*)to)->v = v; }
 static inline void store_uints(uint8 v, uint* to) { ((unaligned_uints*)to)->v = v; }
 
+static inline uint8 absolute(int8 v) { return as_uint8(max(v, -v)); }  // PoCL takes abs() apart
 static inline int least_int(int8 v) {
   const int4 a = min(v.lo, v.hi);
   const int2 b = min(a.lo, a.hi);
-  return min(b.x, b.y);
-}
-static inline uint least_uint(uint8 v) {
-  const uint4 a = min(v.lo, v.hi);
-  const uint2 b = min(a.lo, a.hi);
   return min(b.x, b.y);
 }
 static inline float least_float(float8 v) {
@@ -48,10 +49,11 @@ static inline uint mask_of(int8 condition) {
 
 // For each mask its lanes from the lowest on, of four bits each.
 #define SET_BITS(mask) ((((mask)*0x200040008001ul & 0x111111111111111ul) % 15) * 4)
-#define PACKED(mask, lane) (((mask) >> (lane)&1u) * ((uint)(lane) << SET_BITS((mask) & ((1ul << (lane)) - 1))))
-#define LANES_IN(mask)                                                                                            \
-  (PACKED(mask, 1) | PACKED(mask, 2) | PACKED(mask, 3) | PACKED(mask, 4) | PACKED(mask, 5) | PACKED(mask, 6) | \
-   PACKED(mask, 7))
+#define PACKED(mask, lane) \
+  (((mask) >> (lane)&1u) * ((uint)(lane) << SET_BITS((mask) & ((1ul << (lane)) - 1))))
+#define LANES_IN(mask)                                                                       \
+  (PACKED(mask, 1) | PACKED(mask, 2) | PACKED(mask, 3) | PACKED(mask, 4) | PACKED(mask, 5) | \
+   PACKED(mask, 6) | PACKED(mask, 7))
 #define LANES_IN_4(m) LANES_IN(m), LANES_IN(m + 1), LANES_IN(m + 2), LANES_IN(m + 3)
 #define LANES_IN_16(m) LANES_IN_4(m), LANES_IN_4(m + 4), LANES_IN_4(m + 8), LANES_IN_4(m + 12)
 #define LANES_IN_64(m) LANES_IN_16(m), LANES_IN_16(m + 16), LANES_IN_16(m + 32), LANES_IN_16(m + 48)

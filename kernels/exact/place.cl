@@ -1,0 +1,69 @@
+// Places: where seeds lie, as whole numbers of 2^-FRACTION_BITS of a unit of the spacing. With the build
+// option VOROCL_FRACTIONS they come as such (of 1/4096 pixel), else as packed pixels, at whose centres seeds
+// are, and a bit is enough. A pixel is SPACING_X and its like units long, so that places of all grids are
+// those of one metric. A plane is a volume of one slice whose places have no z.
+//
+// THE TIE RULE. Of the seeds at the least distance the first by z, y and x of its own position wins, then the
+// lowest id.
+
+#ifndef VOROCL_EXACT_PLACE
+#define VOROCL_EXACT_PLACE
+
+#include "core/metric.cl"
+#include "core/periods.cl"
+#include "core/units.cl"
+#include "core/vector.cl"
+#include "exact/lanes.cl"
+#include "exact/sizes.cl"
+
+#define IS_VOLUME (VOROCL_DIMENSIONS == 3)
+#if IS_VOLUME
+#include "volumes/position.cl"
+#else
+#include "core/position.cl"
+#endif
+#ifdef VOROCL_MANHATTAN
+#define IS_MANHATTAN 1
+#else
+#define IS_MANHATTAN 0
+#endif
+#if IS_MANHATTAN && IS_VOLUME
+#error "Keys and dominance of volumes are those of Euclidean distances"
+#endif
+
+#ifdef VOROCL_FRACTIONS
+#define FRACTION_BITS MOST_FRACTION_BITS
+#else
+#define FRACTION_BITS 1
+#endif
+#define ONE (1 << FRACTION_BITS)
+#define HALF (ONE / 2)
+#define LOW_BITS (FRACTION_BITS + 1)
+#define SPACINGS ((int4)(SPACING_X, SPACING_Y, SPACING_Z, 0))
+#define IS_SPACED (SPACING_X != 1 || SPACING_Y != 1 || SPACING_Z != 1)
+#define NO_PLACE 0xffffffffu
+#if 2 * FRACTION_BITS + 2 > 31
+#error "The sum of two squared fractions must fit in 31 bits"
+#endif
+
+#ifndef VOROCL_FRACTIONS
+typedef uint given_t;
+static inline bool is_given(given_t given) { return !(given & EMPTY_BIT); }
+static inline int4 place_of(given_t given) {
+#if IS_VOLUME
+  return (int4)(x_of(given), y_of(given), z_of(given), 0) * ONE + (int4)(HALF, HALF, HALF, 0);
+#else
+  return (int4)(packed_x(given), packed_y(given), 0, 0) * ONE + (int4)(HALF, HALF, 0, 0);
+#endif
+}
+#elif IS_VOLUME
+typedef int4 given_t;
+static inline bool is_given(given_t given) { return given.x != ABSENT; }
+static inline int4 place_of(given_t given) { return given; }
+#else
+typedef int2 given_t;
+static inline bool is_given(given_t given) { return given.x != ABSENT; }
+static inline int4 place_of(given_t given) { return (int4)(given, 0, 0); }
+#endif
+
+#endif

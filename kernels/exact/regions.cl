@@ -1,0 +1,272 @@
+// A work-item labels a region: dense ones by stamps, tile by tile, others from lists that are handed down to
+// tiles, boxes and parts of boxes. Where a list overflows, smaller boxes gather for themselves, and at last
+// pixels search.
+
+#ifndef VOROCL_EXACT_REGIONS
+#define VOROCL_EXACT_REGIONS
+
+#include "exact/index.cl"
+#include "exact/stamps.cl"
+
+// Sides of boxes. A work-item has a region of a volume, or a tile of a plane; the first tile's has the whole
+// region where that has few places.
+#if IS_VOLUME
+#define REGION SIDE_OF_VOLUME
+#define TILE 16
+#define BOX_X 16
+#define BOX_Y 8
+#define BOX_Z 8
+#define PART_X 8
+#define PART_Y 4
+#define PART_Z 4
+#define FEW_OF_TILE UINT_MAX
+#define MANY_OF_TILE 100
+#define MOST_OF_BOX 64
+#else
+#define REGION (4 * SIDE_OF_PLANE)
+#define TILE SIDE_OF_PLANE
+#define BOX_X 16
+#define BOX_Y 16
+#define BOX_Z 1
+#define PART_X 8
+#define PART_Y 8
+#define PART_Z 1
+#define FEW_OF_TILE 40
+#define MANY_OF_TILE MOST_IN_LIST
+#define MOST_OF_BOX 48
+#endif
+#define SIDE (IS_VOLUME ? REGION : TILE)  // of what a work-item has
+#define REGION_Z (IS_VOLUME ? REGION : 1)
+#define TILE_Z (IS_VOLUME ? TILE : 1)
+// A region with fewer places is labelled from one list, and so is a tile; the boxes of a tile with many are
+// half as long; a box with more than MOST_OF_BOX is labelled in parts.
+#define FEW_OF_REGION 40
+
+typedef struct {
+  list_t of_region, of_tile, of_box, of_part;
+} lists_t;
+
+// Child i of a box, by x, y, z.
+static inline box_t child_of(box_t b, int i, int sx, int sy, int sz) {
+  const int nx = b.sx / sx, ny = b.sy / sy;
+  return box_at(b.x + i % nx * sx, b.y + i / nx % ny * sy, b.z + i / nx / ny * sz, sx, sy, sz);
+}
+static inline int children_of(box_t b, int sx, int sy, int sz) {
+  return (b.sx / sx) * (b.sy / sy) * (b.sz / sz);
+}
+
+// Copies to `list` what may win in a box within another one.
+NOINLINE static int narrow(const list_t* from, int count, box_t outer, box_t box, list_t* list) {
+  const int4 way = centre_of(box) - centre_of(outer);
+  int8 nearest = INT_MAX;
+  for (int k = 0; k < count; k += 8) {
+    nearest = min(nearest, nearness_of(floats_of(moved(load_from_list(from, k), way)).n, k, count));
+  }
+  const float4 place = place_in(from, number_of(nearest)) - convert_float4(way);
+  count = drop_by(from, count, list, way, place, box);
+  return drop_beaten(list, count, box);
+}
+
+NOINLINE static void search_all(const scene_t* scene, box_t b) {
+  for (int z = b.z; z < min(b.z + b.sz, scene->size.z); ++z) {
+    for (int y = b.y; y < min(b.y + b.sy, scene->size.y); ++y) {
+      for (int x = b.x; x < min(b.x + b.sx, scene->size.x); ++x) {
+        scene->labels[index_of(scene, x, y, z)] = search_pixel(scene, x, y, z, NO_PLACE);
+      }
+    }
+  }
+}
+
+static inline bool label_if_one(const scene_t* scene, const list_t* list, int count, box_t b) {
+  if (count != 1) return false;
+  show_one(scene, b, scene->ids[list->at[0]]);
+  return true;
+}
+
+// More than keys hold: pixel by pixel.
+NOINLINE static void compare_list(const scene_t* scene, box_t b, const list_t* list, int count) {
+  for (int z = b.z; z < min(b.z + b.sz, scene->size.z); ++z) {
+    for (int y = b.y; y < min(b.y + b.sy, scene->size.y); ++y) {
+      for (int x = b.x; x < min(b.x + b.sx, scene->size.x); ++x) {
+        scene->labels[index_of(scene, x, y, z)] = compare_at(scene, b, list, count, x, y, z);
+      }
+    }
+  }
+}
+
+NOINLINE static void label_part(const scene_t* scene, box_t part, const list_t* list, int count) {
+  if (label_if_one(scene, list, count, part) || label_by_keys(scene, list, count, part)) return;
+  if (!label_many(scene, list, count, part)) compare_list(scene, part, list, count);
+}
+NOINLINE static void label_box(const scene_t* scene, box_t box, const list_t* list, int count,
+                               lists_t* lists) {
+  if (label_if_one(scene, list, count, box)) return;
+  if (count <= MOST_OF_BOX && label_by_keys(scene, list, count, box)) return;
+  for (int i = 0; i < children_of(box, PART_X, PART_Y, PART_Z); ++i) {
+    const box_t part = child_of(box, i, PART_X, PART_Y, PART_Z);
+    if (!is_in_grid(scene, part)) continue;
+    const int some = narrow(list, count, box, part, &lists->of_part);
+    label_part(scene, part, &lists->of_part, some);
+  }
+}
+NOINLINE static void label_tile(const scene_t* scene, box_t tile, const list_t* list, int count,
+                                lists_t* lists) {
+  if (label_if_one(scene, list, count, tile)) return;
+  const int side = count > MANY_OF_TILE ? BOX_X / 2 : BOX_X;
+  for (int i = 0; i < children_of(tile, side, BOX_Y, BOX_Z); ++i) {
+    const box_t box = child_of(tile, i, side, BOX_Y, BOX_Z);
+    if (!is_in_grid(scene, box)) continue;
+    const int some = narrow(list, count, tile, box, &lists->of_box);
+    label_box(scene, box, &lists->of_box, some, lists);
+  }
+}
+NOINLINE static void label_region(const scene_t* scene, box_t region, const list_t* list, int count,
+                                  lists_t* lists) {
+  if (label_if_one(scene, list, count, region)) return;
+  for (int i = 0; i < children_of(region, TILE, TILE, TILE_Z); ++i) {
+    const box_t tile = child_of(region, i, TILE, TILE, TILE_Z);
+    if (!is_in_grid(scene, tile)) continue;
+    const int some = narrow(list, count, region, tile, &lists->of_tile);
+    label_tile(scene, tile, &lists->of_tile, some, lists);
+  }
+}
+
+typedef enum { A_REGION, A_TILE, A_BOX, A_PART } level_t;
+
+// Labels a box from a list of its own; false if the list overflows.
+NOINLINE static bool label_alone(const scene_t* scene, box_t b, level_t level, lists_t* lists) {
+  const cuboid_t limits = limits_around(scene, b);
+  float4 place;
+  if (!find_near(scene, b, &limits, &place)) {
+    show_one(scene, b, NO_LABEL);
+    return true;
+  }
+  list_t* const list = level == A_REGION ? &lists->of_region
+                       : level == A_TILE ? &lists->of_tile
+                       : level == A_BOX  ? &lists->of_box
+                                         : &lists->of_part;
+  int count = gather(scene, b, &limits, place, list);
+  if (count == OVERFLOW) return false;
+  count = drop_beaten(list, count, b);
+  switch (level) {
+    case A_REGION:
+      label_region(scene, b, list, count, lists);
+      break;
+    case A_TILE:
+      label_tile(scene, b, list, count, lists);
+      break;
+    case A_BOX:
+      label_box(scene, b, list, count, lists);
+      break;
+    default:
+      label_part(scene, b, list, count);
+      break;
+  }
+  return true;
+}
+
+// The places in the bins of a box.
+static inline uint places_around(const scene_t* scene, box_t b, uint* pixels) {
+  const bins_t* const bins = &scene->bins;
+  const int x0 = b.x >> bins->bits.x, x1 = min(b.x + b.sx - 1, scene->size.x - 1) >> bins->bits.x;
+  const int y0 = b.y >> bins->bits.y, y1 = min(b.y + b.sy - 1, scene->size.y - 1) >> bins->bits.y;
+  const int z0 = b.z >> bins->bits.z, z1 = min(b.z + b.sz - 1, scene->size.z - 1) >> bins->bits.z;
+  uint count = 0;
+  for (int z = z0; z <= z1; ++z) {
+    for (int y = y0; y <= y1; ++y) {
+      const uint first = (uint)((z * bins->rows + y) * (bins->columns + 1));
+      count += scene->starts[first + (uint)x1 + 1] - scene->starts[first + (uint)x0];
+    }
+  }
+  *pixels = (uint)((x1 + 1 - x0) * (y1 + 1 - y0) * (z1 + 1 - z0))
+            << (bins->bits.x + bins->bits.y + bins->bits.z);
+  return count;
+}
+
+NOINLINE static void label_by_lists(const scene_t* scene, box_t outer, lists_t* lists) {
+  for (int i = 0; i < children_of(outer, TILE, TILE, TILE_Z); ++i) {
+    const box_t tile = child_of(outer, i, TILE, TILE, TILE_Z);
+    if (!is_in_grid(scene, tile)) continue;
+    uint pixels;
+    if (places_around(scene, tile, &pixels) < FEW_OF_TILE && label_alone(scene, tile, A_TILE, lists))
+      continue;
+    for (int j = 0; j < children_of(tile, BOX_X, BOX_Y, BOX_Z); ++j) {
+      const box_t box = child_of(tile, j, BOX_X, BOX_Y, BOX_Z);
+      if (!is_in_grid(scene, box) || label_alone(scene, box, A_BOX, lists)) continue;
+      for (int k = 0; k < children_of(box, PART_X, PART_Y, PART_Z); ++k) {
+        const box_t part = child_of(box, k, PART_X, PART_Y, PART_Z);
+        if (!is_in_grid(scene, part) || label_alone(scene, part, A_PART, lists)) continue;
+        search_all(scene, part);
+      }
+    }
+  }
+}
+
+// The side of stamps for so many pixels per place: few pixels are farther from all places than half of it. 0:
+// none.
+#define STAMP_FACTOR 7.f  // times the pixels of a place are those of a ball of that radius
+static inline int stamp_side(uint pixels, uint places) {
+  if (IS_SPACED || IS_MANHATTAN) return 0;
+  const float of_ball = (float)pixels / (float)max(places, 1u) * STAMP_FACTOR;
+  const float side = 2 * (IS_VOLUME ? cbrt(of_ball / 4.18879f) : sqrt(of_ball / 3.14159f));
+  return side > MOST_STAMP_SIDE ? 0 : max(3, (int)ceil(side));
+}
+
+// Labels a box of at most SIDE by stamps; false if places are not dense there, or too many.
+static inline bool label_if_dense(const scene_t* scene, box_t b, stamps_t* stamps) {
+  uint pixels;
+  const uint count = places_around(scene, b, &pixels);
+  const int side = stamp_side(pixels, count);
+  if (side == 0) return false;
+  for (int i = 0; !IS_VOLUME && i < children_of(b, BOX_X, BOX_Y, 1); ++i) {
+    uint some;
+    const box_t box = child_of(b, i, BOX_X, BOX_Y, 1);
+    if (!is_in_grid(scene, box)) continue;
+    const uint there = places_around(scene, box, &some);
+    if ((ulong)there * pixels * 4 < (ulong)count * some) return false;
+  }
+  // The seeds of the bins, and those whose stamps reach into the box.
+  const float around = (float)(b.sx + side) * (float)(b.sy + side) * (IS_VOLUME ? (float)(b.sz + side) : 1.f);
+  if (around * (float)count >= 0.9f * MOST_STAMPS * (float)pixels) return false;
+  return label_by_stamps(scene, b, side, stamps);
+}
+
+typedef union {
+  lists_t lists;
+  stamps_t stamps;
+} rooms_t;
+
+// `zs` is for volumes, `order` for planes, where places may be images of seeds.
+kernel void label_regions(global const uint* restrict starts, global const int* restrict xs,
+                          global const int* restrict ys, global const int* restrict zs,
+                          global const uint* restrict ids, global const int2* restrict order, int has_images,
+                          int4 bits, int4 size, int4 first, int4 last, global uint* restrict labels) {
+  const int item = (int)get_global_id(0), columns = (size.x - 1) / SIDE + 1, rows = (size.y - 1) / SIDE + 1;
+  const box_t own = box_at(item % columns * SIDE, item / columns % rows * SIDE, item / columns / rows * SIDE,
+                           SIDE, SIDE, IS_VOLUME ? SIDE : 1);
+  const scene_t scene = {bins_of(bits, size),    size,  starts, xs,    ys, zs, ids,
+                         has_images ? order : 0, first, last,   labels};
+  if (!is_in_grid(&scene, own)) return;
+  const box_t region =
+      box_at(own.x / REGION * REGION, own.y / REGION * REGION, own.z, REGION, REGION, REGION_Z);
+  rooms_t rooms;
+  uint pixels;
+  const uint count = places_around(&scene, region, &pixels);
+  const bool has_few = (ulong)count * (REGION * REGION * REGION_Z) < (ulong)FEW_OF_REGION * pixels;
+  if (has_few && (IS_VOLUME || (region.x + REGION <= size.x && region.y + REGION <= size.y))) {
+    const bool is_first = own.x == region.x && own.y == region.y;
+    if (is_first && !label_alone(&scene, region, A_REGION, &rooms.lists)) {
+      label_by_lists(&scene, region, &rooms.lists);
+    }
+    return;
+  }
+  if (label_if_dense(&scene, own, &rooms.stamps)) return;
+  for (int i = 0; i < children_of(own, TILE, TILE, TILE_Z); ++i) {
+    const box_t tile = child_of(own, i, TILE, TILE, TILE_Z);
+    if (!is_in_grid(&scene, tile)) continue;
+    if (SIDE > TILE && label_if_dense(&scene, tile, &rooms.stamps)) continue;
+    label_by_lists(&scene, tile, &rooms.lists);
+  }
+}
+
+#endif

@@ -1,0 +1,156 @@
+#include "exact/places.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "exact/outer.hpp"
+#include "runtime/buffer.hpp"
+// Last: it defines macros.
+#include "exact/sizes.cl"
+
+namespace vorocl {
+
+namespace {
+
+static_assert(fractions_of_pixel == 1 << MOST_FRACTION_BITS);
+
+/// The engine's working memory.
+struct PlacesWorkspace {
+  cl::Buffer counts, ends, sorted;  // while the index is made
+  cl::Buffer starts, x, y, z, ids;  // the index (kernels/exact/bins.cl)
+};
+
+/// What is labelled: points with their images, or seeds at the centres of pixels inside the window, which
+/// others outside are held against afterwards.
+struct Places {
+  PixelGrid grid;
+  cl::Buffer given, ids, order;
+  bool have_ids;
+  cl_uint count;
+  std::size_t near;     // those that are in the index
+  cl_int4 first, last;  // of the pixels that get labels
+};
+
+Places places_of(Filling& filling) {
+  const bool are_points = filling.seeds().are_points;
+  const PixelGrid& grid = filling.placement().grid;
+  if (are_points && !grid.is_volume()) {
+    const PointPlacement& points = filling.take_points();
+    const bool have_ids = points.ids() != nullptr;
+    const auto& [left, top, right, bottom] = points.region.s;
+    return {points.grid,  points.places, have_ids ? points.ids : points.places,
+            points.order, have_ids,      points.count,
+            points.count, {{left, top}}, {{right, bottom}}};
+  }
+  const cl::Buffer& given = are_points ? filling.take_points().seeds : *filling.placement().positions;
+  const std::size_t count = filling.seeds().size;
+  return {grid,
+          given,
+          given,
+          given,
+          false,
+          static_cast<cl_uint>(count),
+          grid.is_volume() ? count : filling.seeds_inside(),
+          {},
+          {{grid.width() - 1, grid.height() - 1, grid.depth() - 1}}};
+}
+
+std::size_t along(int pixels, int bits) { return (static_cast<std::size_t>(pixels - 1) >> bits) + 1; }
+
+/// Bins as near to squares or cubes as powers of two come, with PLACES_OF_BIN each. Rather high than wide: a
+/// walk takes bins of a row at once.
+cl_int4 bits_of_bins(const PixelGrid& grid, std::size_t places) {
+  const std::array<int, 3> sides = {grid.width(), grid.height(), grid.depth()};
+  cl_int4 bits = {};
+  const double each = PLACES_OF_BIN * static_cast<double>(grid.pixels()) /
+                      static_cast<double>(std::max<std::size_t>(places, 1));
+  for (auto doublings = std::llround(std::log2(std::max(each, 1.0))); doublings > 0; --doublings) {
+    std::size_t shortest = 3;
+    const auto length = [&](std::size_t axis) { return grid.spacing()[axis] << bits.s[axis]; };
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      if (1 << bits.s[axis] >= sides[axis]) continue;
+      if (shortest == 3 || length(axis) <= length(shortest)) shortest = axis;
+    }
+    if (shortest == 3) break;
+    ++bits.s[shortest];
+  }
+  return bits;
+}
+
+/// The parts of the list of seeds that are sorted at once: each costs a count per bucket.
+std::size_t chunks_of(std::size_t seeds) { return seeds < 4096 ? 1 : seeds < 65536 ? 8 : 64; }
+
+}  // namespace
+
+void check_exact_volume(const Filling& filling, const DiagramState& state) {
+  if (filling.metric() != Metric::euclidean) {
+    throw Error("exact diagrams of volumes are Euclidean; jump flooding takes the Manhattan metric");
+  }
+  if (state.device.tuning().shape == Shape::group) {
+    throw Error("exact diagrams of volumes are made by CPUs alone, and " + state.device.name() +
+                " is tuned as a GPU: take jump flooding, or a CPU");
+  }
+}
+
+Report exact_diagram_by_places(Filling& filling, DiagramState& state) {
+  const auto [grid, given, given_ids, order, have_ids, count, near, first, last] = places_of(filling);
+  const cl_int has_ids = have_ids;
+  const cl_int4 size = {{grid.width(), grid.height(), grid.depth(), 0}}, bits = bits_of_bins(grid, near);
+  const std::size_t rows = along(grid.height(), bits.s[1]) * along(grid.depth(), bits.s[2]);
+  const std::size_t entries = rows * (along(grid.width(), bits.s[0]) + 1), room = near + BEHIND_PLACES;
+  auto& [counts, ends, sorted, starts, x, y, z, ids] = state.workspace<PlacesWorkspace>();
+  state.reserve(starts, (entries + 1) * word);
+  for (cl::Buffer* const list : {&x, &y, &ids}) state.reserve(*list, room * word);
+  if (grid.is_volume()) state.reserve(z, room * word);
+
+  const Device device = without_vectors(state.device);  // kernels have vectors of their own
+  const bool by_pixels = device.tuning().shape == Shape::group;
+  KernelOptions options{filling.metric()};
+  if (filling.seeds().are_points) options.extent = Extent::fractions;
+  const auto kernel = [&, &of_grid = grid](const char* name, std::size_t items_of_group) -> Kernel& {
+    return state.kernels
+        .get(device, by_pixels ? "exact/pixels.cl" : "exact/diagram.cl", name, of_grid, options)
+        .in_groups_of(items_of_group);
+  };
+  if (by_pixels) {
+    const std::size_t group = device.tuning().group_width * device.tuning().group_height;
+    const std::size_t items_of_places = std::max<std::size_t>(count, 1);
+    const cl::Event begin = fill(state.device, starts, cl_uint{0}, entries + 1);
+    kernel("count_places", group).over_items(items_of_places, given, count, bits, size, starts);
+    kernel("start_bins", std::min<std::size_t>(group, 8)).over_items(rows, starts, bits, size);
+    kernel("list_places", group)
+        .over_items(items_of_places, given, given_ids, has_ids, count, bits, size, starts, x, y, ids);
+    kernel("drop_repeats", 1).over_items(rows, starts, bits, size, x, y, ids);
+    const cl::Event end = kernel("label_pixels", group)
+                              .over_items(grid.pixels(), starts, x, y, ids, order, has_ids, bits, size, first,
+                                          last, state.labels);
+    return filling.commit(0, begin, end);
+  }
+  const std::size_t chunks = chunks_of(count);
+  const auto chunk_count = static_cast<cl_uint>(chunks);
+  state.reserve(counts, chunks * BUCKETS * word);
+  state.reserve(ends, BUCKETS * word);
+  state.reserve(sorted, room * sizeof(cl_int4));
+  cl_uint shift = 0;
+  while ((rows - 1) >> shift >= BUCKETS) ++shift;
+  // Work-items that do much each: small groups spread them over the compute units.
+  const cl::Event begin =
+      kernel("count_chunks", 1).over_items(chunks, given, count, chunk_count, bits, size, shift, counts);
+  kernel("sum_chunks", 1).over_items(1, chunk_count, counts, ends);
+  kernel("sort_chunks", 1)
+      .over_items(chunks, given, given_ids, has_ids, count, chunk_count, bits, size, shift, counts, sorted);
+  const cl::Buffer& of_z = grid.is_volume() ? z : x;
+  kernel("sort_buckets", 1).over_items(BUCKETS, sorted, bits, size, shift, ends, starts, x, y, of_z, ids);
+  const int side = grid.is_volume() ? SIDE_OF_VOLUME : SIDE_OF_PLANE;
+  const auto items_along = [side](int pixels) { return static_cast<std::size_t>(pixels - 1) / side + 1; };
+  const std::size_t items =
+      items_along(grid.width()) * items_along(grid.height()) * items_along(grid.depth());
+  const cl::Event end =
+      kernel("label_regions", 1)
+          .over_items(items, starts, x, y, of_z, ids, order, has_ids, bits, size, first, last, state.labels);
+  const bool has_outer = !filling.seeds().are_points && !grid.is_volume();
+  return filling.commit(0, begin, has_outer ? add_outer_seeds(filling, state, end) : end);
+}
+
+}  // namespace vorocl

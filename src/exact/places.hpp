@@ -1,0 +1,16 @@
+// Exact diagrams by the places of the seeds.
+#pragma once
+
+#include "core/diagram_state.hpp"
+#include "vorocl/report.hpp"
+
+namespace vorocl {
+
+/// Throws Error for the Manhattan metric, and on devices of the group shape.
+void check_exact_volume(const Filling& filling, const DiagramState& state);
+
+/// Labels the diagram by lists of places (kernels/exact). That of a volume was checked; in planes on devices
+/// of the group shape seeds must be points.
+Report exact_diagram_by_places(Filling& filling, DiagramState& state);
+
+}  // namespace vorocl
