@@ -100,7 +100,7 @@ BOOST_AUTO_TEST_CASE(an_empty_kernel_file_is_read_like_any_other) {
   write_kernels(folder);
   folder.file("exact/diagram.cl", "");
   const Variable variable("VOROCL_KERNEL_DIR", folder / "");
-  check_error([] { labels(); }, {"making the kernel count_places", "no such kernel"});
+  check_error([] { labels(); }, {"making the kernel count_chunks", "no such kernel"});
 }
 
 BOOST_AUTO_TEST_CASE(build_options_of_the_environment) {
