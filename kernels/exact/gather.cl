@@ -63,30 +63,46 @@ NOINLINE static bool find_near(const scene_t* scene, box_t box, const cuboid_t* 
   }
 }
 
-// Gathers what a place does not drop. Full lists are cut by the corners, and gathering goes on.
-#define OVERFLOW (-1)
-NOINLINE static int gather(const scene_t* scene, box_t box, const cuboid_t* limits, float4 place,
-                           list_t* list) {
+// A walk over all that may win in a box, which goes on where a list was full.
+typedef struct {
+  walk_t walk;
+  uint from, to;  // what is left of the present range
+  int4 origin;
+} gathering_t;
+
+static inline gathering_t gathering_in(const scene_t* scene, box_t box, const cuboid_t* limits,
+                                       float4 place) {
+  const gathering_t start = {walk_in_balls(scene, box, limits, place), 0, 0, 0};
+  return start;
+}
+
+// Gathers what a place does not drop; true if that is all of it. Full lists are cut by the corners, and
+// gathering goes on, unless they stay half full.
+NOINLINE static bool gather(const scene_t* scene, box_t box, float4 place, gathering_t* gathering,
+                            list_t* list, int* count) {
   const int4 centre = centre_of(box);
   const spans_t spans = spans_of(box);
   const rival_t rival = rival_at(place, &spans);
-  walk_t walk = walk_in_balls(scene, box, limits, place);
-  uint from, to;
-  int4 origin;
-  int count = 0;
-  while (next_range(scene, &walk, centre, &from, &to, &origin)) {
-    for (uint at = from; at < to; at += 8) {
-      if (count > MOST_IN_LIST - 8) {
-        count = drop_beaten(list, count, box);
-        if (count > MOST_IN_LIST / 2) return OVERFLOW;
+  gathering_t g = *gathering;
+  int some = 0;
+  do {
+    for (; g.from < g.to; g.from += 8) {
+      if (some > MOST_IN_LIST - 8) {
+        some = drop_beaten(list, some, box);
+        if (some > MOST_IN_LIST / 2) {
+          *gathering = g;
+          *count = some;
+          return false;
+        }
       }
-      const places8_t p = load_from_index(scene, at, origin);
+      const places8_t p = load_from_index(scene, g.from, g.origin);
       const floats8_t f = floats_of(p);
-      const int8 stays = may_win(&f, &rival, &spans) & (EIGHT < (int)(to - at));
-      count = keep(list, count, stays, &p, at + as_uint8(EIGHT));
+      const int8 stays = may_win(&f, &rival, &spans) & (EIGHT < (int)(g.to - g.from));
+      some = keep(list, some, stays, &p, g.from + as_uint8(EIGHT));
     }
-  }
-  return count;
+  } while (next_range(scene, &g.walk, centre, &g.from, &g.to, &g.origin));
+  *count = drop_beaten(list, some, box);
+  return true;
 }
 
 // --- in integers, pixel by pixel ---
@@ -144,16 +160,33 @@ NOINLINE static uint search_pixel(const scene_t* scene, int x, int y, int z, uin
 }
 
 // The nearest of a list at a pixel of its box.
-NOINLINE static uint compare_at(const scene_t* scene, box_t b, const list_t* list, int count, int x, int y,
+NOINLINE static uint nearest_at(const scene_t* scene, box_t b, const list_t* list, int count, int x, int y,
                                 int z) {
-  if (!has_label(scene, x, y, z)) return NO_LABEL;
   const int4 way = centre_of(box_at(x, y, z, 1, 1, 1)) - centre_of(b);
   winner_t best = {LONG_MAX, NO_PLACE};
   for (int k = 0; k < count; k += 8) {
     const places8_t p = moved(load_from_list(list, k), way);
     compare_eight(scene, &p, vload8(0, list->at + k), count - k, &best);
   }
-  return scene->ids[best.at];
+  return best.at;
+}
+
+// Whether a place is nearer to a pixel than another one.
+static inline long distance_to(const scene_t* scene, int4 centre, uint at) {
+  const long x = shorter_way(scene->x[at] - centre.x, scene->size.x * ONE * SPACING_X, PERIODIC_X);
+  const long y = shorter_way(scene->y[at] - centre.y, scene->size.y * ONE * SPACING_Y, PERIODIC_Y);
+#if IS_MANHATTAN
+  return (x < 0 ? -x : x) + (y < 0 ? -y : y);
+#else
+  const long z =
+      IS_VOLUME ? shorter_way(scene->z[at] - centre.z, scene->size.z * ONE * SPACING_Z, PERIODIC_Z) : 0;
+  return x * x + y * y + z * z;
+#endif
+}
+static inline bool is_nearer(const scene_t* scene, int x, int y, int z, uint at, uint than) {
+  const int4 centre = centre_of(box_at(x, y, z, 1, 1, 1));
+  const long distance = distance_to(scene, centre, at), least = distance_to(scene, centre, than);
+  return distance < least || (distance == least && at != than && comes_first(scene, at, than));
 }
 
 #endif

@@ -336,9 +336,10 @@ NOINLINE static bool label_by_keys(const scene_t* scene, const list_t* list, int
 }
 
 // The same of a box of eight columns and more places: keys without ranks, and beside the least one the place
-// that it is of. Voxels where two places have the least key are compared in 64 bits.
+// that it is of. Where two places of a pixel have the least key they are compared in 64 bits. `found`: the
+// places that win, pixel by pixel.
 #define ROWS 4
-NOINLINE static bool label_many(const scene_t* scene, const list_t* list, int count, box_t b) {
+NOINLINE static bool find_by_keys(const scene_t* scene, const list_t* list, int count, box_t b, uint* found) {
   if (spread_of_keys(list, count, b) >= MOST_SPREAD) return false;
 #if IS_MANHATTAN
   const uint base = abs(list->x[0] - HALF) + abs(list->y[0] - HALF);
@@ -347,53 +348,56 @@ NOINLINE static bool label_many(const scene_t* scene, const list_t* list, int co
   for (int k = 0; k < count; k += 8) store_uints(squares_of(load_from_list(list, k)).high, high + k);
 #endif
   const uint8 columns = as_uint8(EIGHT - 4);
-  const bool inside = is_inside(scene, b);
-  for (int z = 0; z < min(b.sz, scene->size.z - b.z); ++z) {
-    for (int y = 0; y < b.sy; y += ROWS) {
-      int8 least[ROWS], best[ROWS], is_tie[ROWS];
+  for (int row = 0; row < b.sy * b.sz; row += ROWS) {
+    const int y = row % b.sy, z = row / b.sy;
+    int8 least[ROWS], best[ROWS], is_tie[ROWS];
 #pragma unroll
-      for (int r = 0; r < ROWS; ++r) least[r] = INT_MAX, best[r] = 0, is_tie[r] = 0;
-      for (int i = 0; i < count; ++i) {
+    for (int r = 0; r < ROWS; ++r) least[r] = INT_MAX, best[r] = 0, is_tie[r] = 0;
+    for (int i = 0; i < count; ++i) {
 #if IS_MANHATTAN
-        const uint8 of_columns = absolute(list->x[i] - HALF - as_int8(columns) * ONE) - base;
+      const uint8 of_columns = absolute(list->x[i] - HALF - as_int8(columns) * ONE) - base;
 #else
-        const uint from_x = (uint)(list->x[i] - list->x[0]) * SPACING_X;
-        const uint from_y = (uint)(list->y[i] - list->y[0]) * SPACING_Y;
-        uint of_row = high[i] - high[0] - (uint)(y - b.sy / 2) * from_y;
+      const uint from_x = (uint)(list->x[i] - list->x[0]) * SPACING_X;
+      const uint from_y = (uint)(list->y[i] - list->y[0]) * SPACING_Y;
+      uint of_row = high[i] - high[0] - (uint)(y - b.sy / 2) * from_y;
 #if IS_VOLUME
-        of_row -= (uint)(z - b.sz / 2) * ((uint)(list->z[i] - list->z[0]) * SPACING_Z);
+      of_row -= (uint)(z - b.sz / 2) * ((uint)(list->z[i] - list->z[0]) * SPACING_Z);
 #endif
-        uint8 keys = of_row - columns * from_x;
+      uint8 keys = of_row - columns * from_x;
 #endif
 #pragma unroll
-        for (int r = 0; r < ROWS; ++r) {
-#if IS_MANHATTAN
-          const uint8 keys = of_columns + abs(list->y[i] - HALF - (y + r - b.sy / 2) * ONE);
-#endif
-          const int8 key = as_int8(keys), is_less = key < least[r];
-          is_tie[r] = (is_tie[r] & ~is_less) | (key == least[r]);
-          best[r] = select(best[r], (int8)i, is_less);
-          least[r] = min(least[r], key);
-#if !IS_MANHATTAN
-          keys -= from_y;
-#endif
-        }
-      }
       for (int r = 0; r < ROWS; ++r) {
-        uint lane[8];
-        store_uints(as_uint8(best[r]), lane);
-        for (int i = 0; i < 8; ++i) lane[i] = scene->ids[list->at[lane[i]]];
-        show_eight(scene, inside, b.x, b.y + y + r, b.z + z, vload8(0, lane));
-        if (b.y + y + r >= scene->size.y) continue;
-        for (uint rest = mask_of(is_tie[r] & (EIGHT < scene->size.x - b.x)); rest != 0; rest &= rest - 1) {
-          const int at_x = b.x + 31 - (int)clz(rest & (0 - rest)), at_y = b.y + y + r, at_z = b.z + z;
-          scene->labels[index_of(scene, at_x, at_y, at_z)] =
-              compare_at(scene, b, list, count, at_x, at_y, at_z);
-        }
+#if IS_MANHATTAN
+        const uint8 keys = of_columns + abs(list->y[i] - HALF - (y + r - b.sy / 2) * ONE);
+#endif
+        const int8 key = as_int8(keys), is_less = key < least[r];
+        is_tie[r] = (is_tie[r] & ~is_less) | (key == least[r]);
+        best[r] = select(best[r], (int8)i, is_less);
+        least[r] = min(least[r], key);
+#if !IS_MANHATTAN
+        keys -= from_y;
+#endif
+      }
+    }
+    for (int r = 0; r < ROWS; ++r) {
+      uint* const of_row = found + (row + r) * 8;
+      store_uints(as_uint8(best[r]), of_row);
+      for (int i = 0; i < 8; ++i) of_row[i] = list->at[of_row[i]];
+      for (uint rest = mask_of(is_tie[r]); rest != 0; rest &= rest - 1) {
+        const int i = 31 - (int)clz(rest & (0 - rest));
+        of_row[i] = nearest_at(scene, b, list, count, b.x + i, b.y + y + r, b.z + z);
       }
     }
   }
   return true;
+}
+
+// Finds the places that win at the pixels of a box of eight columns.
+static inline void find_winners(const scene_t* scene, const list_t* list, int count, box_t b, uint* found) {
+  if (find_by_keys(scene, list, count, b, found)) return;
+  for (int i = 0; i < b.sx * b.sy * b.sz; ++i) {
+    found[i] = nearest_at(scene, b, list, count, b.x + i % 8, b.y + i / 8 % b.sy, b.z + i / 8 / b.sy);
+  }
 }
 
 #endif

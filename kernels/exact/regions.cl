@@ -1,6 +1,6 @@
 // A work-item labels a region: dense ones by stamps, tile by tile, others from lists that are handed down to
-// tiles, boxes and parts of boxes. Where a list overflows, smaller boxes gather for themselves, and at last
-// pixels search.
+// tiles, boxes and parts of boxes. Where a list overflows, smaller boxes gather for themselves, and parts at
+// last go on with another list.
 
 #ifndef VOROCL_EXACT_REGIONS
 #define VOROCL_EXACT_REGIONS
@@ -67,36 +67,46 @@ NOINLINE static int narrow(const list_t* from, int count, box_t outer, box_t box
   return drop_beaten(list, count, box);
 }
 
-NOINLINE static void search_all(const scene_t* scene, box_t b) {
-  for (int z = b.z; z < min(b.z + b.sz, scene->size.z); ++z) {
-    for (int y = b.y; y < min(b.y + b.sy, scene->size.y); ++y) {
-      for (int x = b.x; x < min(b.x + b.sx, scene->size.x); ++x) {
-        scene->labels[index_of(scene, x, y, z)] = search_pixel(scene, x, y, z, NO_PLACE);
-      }
-    }
-  }
-}
-
 static inline bool label_if_one(const scene_t* scene, const list_t* list, int count, box_t b) {
   if (count != 1) return false;
   show_one(scene, b, scene->ids[list->at[0]]);
   return true;
 }
 
-// More than keys hold: pixel by pixel.
-NOINLINE static void compare_list(const scene_t* scene, box_t b, const list_t* list, int count) {
-  for (int z = b.z; z < min(b.z + b.sz, scene->size.z); ++z) {
-    for (int y = b.y; y < min(b.y + b.sy, scene->size.y); ++y) {
-      for (int x = b.x; x < min(b.x + b.sx, scene->size.x); ++x) {
-        scene->labels[index_of(scene, x, y, z)] = compare_at(scene, b, list, count, x, y, z);
-      }
-    }
+// Pixels have the places that win there.
+#define PIXELS_OF_PART (PART_X * PART_Y * PART_Z)
+NOINLINE static void show_winners(const scene_t* scene, box_t part, uint* winners) {
+  const bool inside = is_inside(scene, part);
+  for (int row = 0; row < part.sy * part.sz; ++row) {
+    uint* const of_row = winners + row * 8;
+    for (int i = 0; i < 8; ++i) of_row[i] = scene->ids[of_row[i]];
+    show_eight(scene, inside, part.x, part.y + row % part.sy, part.z + row / part.sy, vload8(0, of_row));
   }
 }
 
 NOINLINE static void label_part(const scene_t* scene, box_t part, const list_t* list, int count) {
   if (label_if_one(scene, list, count, part) || label_by_keys(scene, list, count, part)) return;
-  if (!label_many(scene, list, count, part)) compare_list(scene, part, list, count);
+  uint winners[PIXELS_OF_PART];
+  find_winners(scene, list, count, part, winners);
+  show_winners(scene, part, winners);
+}
+
+// The same of more places than a list holds: list by list, and pixels have the places that won so far.
+NOINLINE static void label_crowd(const scene_t* scene, box_t part, float4 place, gathering_t* gathering,
+                                 list_t* list, int count) {
+  uint winners[PIXELS_OF_PART], others[PIXELS_OF_PART];
+  find_winners(scene, list, count, part, winners);
+  bool is_all;
+  do {
+    is_all = gather(scene, part, place, gathering, list, &count);
+    if (count == 0) continue;
+    find_winners(scene, list, count, part, others);
+    for (int i = 0; i < PIXELS_OF_PART; ++i) {
+      const int x = part.x + i % 8, y = part.y + i / 8 % part.sy, z = part.z + i / 8 / part.sy;
+      if (is_nearer(scene, x, y, z, others[i], winners[i])) winners[i] = others[i];
+    }
+  } while (!is_all);
+  show_winners(scene, part, winners);
 }
 NOINLINE static void label_box(const scene_t* scene, box_t box, const list_t* list, int count,
                                lists_t* lists) {
@@ -133,7 +143,7 @@ NOINLINE static void label_region(const scene_t* scene, box_t region, const list
 
 typedef enum { A_REGION, A_TILE, A_BOX, A_PART } level_t;
 
-// Labels a box from a list of its own; false if the list overflows.
+// Labels a box from a list of its own; false if the list overflows and the box is no part.
 NOINLINE static bool label_alone(const scene_t* scene, box_t b, level_t level, lists_t* lists) {
   const cuboid_t limits = limits_around(scene, b);
   float4 place;
@@ -145,9 +155,13 @@ NOINLINE static bool label_alone(const scene_t* scene, box_t b, level_t level, l
                        : level == A_TILE ? &lists->of_tile
                        : level == A_BOX  ? &lists->of_box
                                          : &lists->of_part;
-  int count = gather(scene, b, &limits, place, list);
-  if (count == OVERFLOW) return false;
-  count = drop_beaten(list, count, b);
+  gathering_t gathering = gathering_in(scene, b, &limits, place);
+  int count;
+  if (!gather(scene, b, place, &gathering, list, &count)) {
+    if (level != A_PART) return false;
+    label_crowd(scene, b, place, &gathering, list, count);
+    return true;
+  }
   switch (level) {
     case A_REGION:
       label_region(scene, b, list, count, lists);
@@ -195,8 +209,7 @@ NOINLINE static void label_by_lists(const scene_t* scene, box_t outer, lists_t* 
       if (!is_in_grid(scene, box) || label_alone(scene, box, A_BOX, lists)) continue;
       for (int k = 0; k < children_of(box, PART_X, PART_Y, PART_Z); ++k) {
         const box_t part = child_of(box, k, PART_X, PART_Y, PART_Z);
-        if (!is_in_grid(scene, part) || label_alone(scene, part, A_PART, lists)) continue;
-        search_all(scene, part);
+        if (is_in_grid(scene, part)) label_alone(scene, part, A_PART, lists);
       }
     }
   }

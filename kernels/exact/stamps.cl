@@ -49,6 +49,7 @@ typedef struct {
 // The first of the `side` pixels of an axis that are nearest to a place.
 #define FIRST_OF(place, side) ((((place) + ((side) % 2 ? 0 : HALF)) >> FRACTION_BITS) - (side) / 2)
 
+#define OVERFLOW (-1)
 // The seeds whose stamps meet the tile; OVERFLOW if there are too many.
 NOINLINE static int gather_stamps(const scene_t* scene, box_t tile, int side, stamps_t* s) {
   const int m = side / 2 + 1;
