@@ -56,8 +56,8 @@ struct SeedsOptions {
 ///
 /// Memory: on the device 4 bytes per seed and frame that is remembered, 8 more of points with Snap::none, 16
 /// of those in volumes, and those of its point where that came from the caller; two or three times as much in
-/// a loop over frames. Where a diagram's window does not hold all seeds 8 more, and up to 15 for each outer
-/// seed and image that may own a pixel, which the host finds and sorts. On the host 16 or 24 bytes per seed
+/// a loop over frames. Where a diagram's window does not hold all seeds 8 more, and 12 for each seed and
+/// image that may own a pixel, which the host finds. On the host 16 or 24 bytes per seed
 /// whose point came from there, and 16 more where the host places it.
 ///
 /// Threads: one thread at a time.

@@ -22,17 +22,4 @@
 #define PLACES_OF_BIN 4   // about
 #define BEHIND_PLACES 16  // values behind each list of the index, which is read in whole vectors
 
-// SEEDS OUTSIDE THE PIXELS (see outer.cl). The side of the boxes that have a list of them, as a power of two;
-// the entries of a list; how many seeds or boxes a node of their tree holds, as a power of two.
-#define OUTER_BOX_BITS 4
-#define OUTER_BOX (1 << OUTER_BOX_BITS)
-#define OUTER_FAN_BITS 3
-#define OUTER_FAN (1 << OUTER_FAN_BITS)
-#ifndef OUTER_LIST
-#define OUTER_LIST 32
-#endif
-#if OUTER_LIST < OUTER_FAN
-#error "A list has no room for one leaf, from which a walk could go on"
-#endif
-
 #endif

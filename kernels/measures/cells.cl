@@ -186,7 +186,7 @@ kernel void unwrap_sums(uint count, int4 periods, int4 size, global const int* r
   sum_z[id] += (long)of_cell.z * DEPTH(size);
 }
 
-#ifdef VOROCL_OUTER_SEEDS
+#ifdef VOROCL_FAR
 // Whether a coordinate is one of the window's, or has an image there: the positions of an axis that has a period lie
 // in one period, which may begin outside a window that is no longer.
 static inline bool is_shown(int at, int size, int period) {

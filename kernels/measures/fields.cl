@@ -25,7 +25,7 @@ static inline length_v find_distances(global const uint* labels, global const se
                                       int4 size) {
   const int x = vector_x(size.x), y = row_in_slice(size);
   labels += vector_begin(size);
-#ifdef VOROCL_OUTER_SEEDS
+#ifdef VOROCL_FAR
   const window_t window = window_of(size, of_axes);
   const int z = slice_of(size);
   LENGTH lane[VOROCL_WIDTH];
@@ -55,10 +55,15 @@ VECTOR_KERNEL void integer_distances(global const uint* restrict labels, SEED_PA
                                      global uint* restrict too_long) {
   if (!has_vector_of(size)) return;
   const length_v distance = find_distances(labels, seeds, count, periods, size);
-#ifdef VOROCL_FAR
+#ifdef VOROCL_FAR  // of whole pixels
+#ifdef VOROCL_EUCLIDEAN
+  const length_v in_pixels = distance >> (length_v)(2 * UNIT_BITS);
+#else
+  const length_v in_pixels = distance >> (length_v)UNIT_BITS;
+#endif
   const length_v longest = (length_v)NO_DISTANCE;
-  if (ANY(distance >= longest && distance != (length_v)NO_SEED)) atomic_or(too_long, 1u);
-  STORE_VECTOR(CONVERT_INT_V(min(distance, longest)), out + vector_begin(size));
+  if (ANY(in_pixels >= longest && distance != (length_v)NO_SEED)) atomic_or(too_long, 1u);
+  STORE_VECTOR(CONVERT_INT_V(min(in_pixels, longest)), out + vector_begin(size));
 #else
   (void)too_long;
   STORE_VECTOR(distance, out + vector_begin(size));

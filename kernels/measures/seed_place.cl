@@ -1,7 +1,7 @@
 // Where the seeds of a diagram lie, as its measures see it. Seeds are packed positions of the window's pixels
-// (core/position.cl) or of a volume's voxels (volumes/position.cl); with the build option VOROCL_OUTER_SEEDS they are
-// positions in the plane (core/plane.cl), some of them outside the pixels; with VOROCL_FRACTIONS besides, these, and
-// those in a volume, are in fractions of a pixel (core/units.cl).
+// (core/position.cl) or of a volume's voxels (volumes/position.cl); with the build option VOROCL_FAR they are coordinates,
+// of which some in a plane lie outside the pixels: of pixels, or with VOROCL_FRACTIONS in fractions of them
+// (core/units.cl).
 //
 // THE RULE OF PLACE. Where the window shows one whole period of an axis (PERIODIC_X and its like), a pixel lies the
 // shorter way round from its seed, perhaps outside the window; half a period away it is behind the seed. Along other
@@ -24,7 +24,7 @@
 #if VOROCL_DIMENSIONS == 3
 #include "volumes/position.cl"
 #else
-#include "core/plane.cl"
+#include "core/position.cl"
 #endif
 
 // The window: its pixels, the periods that distances know, 0 along an axis without one, and the tilt, in units.
@@ -36,7 +36,7 @@ typedef struct {
 // memory.)
 typedef int4 way_t;
 
-#ifdef VOROCL_OUTER_SEEDS
+#ifdef VOROCL_FAR
 #if VOROCL_DIMENSIONS == 3
 typedef int4 seed_t;
 #define Z_OF(seed) ((seed).z)

@@ -70,8 +70,14 @@ void DiagramState::put_labels_at(std::uint32_t* memory) {
 std::shared_ptr<const Placement> DiagramState::place(const Seeds& seeds, Metric metric) const {
   if (!seeds.device().same_as(device)) throw Error("the seeds and the diagram belong to different devices");
   if (seeds.grid() != window.grid()) throw Error(difference(seeds.grid(), window.grid()));
-  const SeedsFrame& frame = *Internal::state(seeds).frame();
-  return metric == Metric::great_circle ? place_on_globe(window, grid, frame) : frame.place_in(window, grid);
+  if (metric == Metric::great_circle) check_globe(window.grid());
+  return Internal::state(seeds).frame()->place_in(window, grid);
+}
+
+std::shared_ptr<const PointPlacement> DiagramState::place_points(const SeedsFrame& frame,
+                                                                 Metric metric) const {
+  return metric == Metric::great_circle ? place_on_globe(window, grid, frame)
+                                        : frame.place_points_in(window, grid);
 }
 
 template <typename Then>
@@ -113,13 +119,9 @@ Filling::Filling(const Seeds& seeds, Diagram& diagram, Metric metric, const char
   next_.method = method;
 }
 
-const PointPlacement& Filling::take_points() {
-  next_.points = seeds().place_points_in(diagram_.window, diagram_.grid);
+const PointPlacement& Filling::take_places() {
+  next_.points = diagram_.place_points(seeds(), next_.metric);
   return *next_.points;
-}
-
-void Filling::place_images_outside() {
-  next_.placement = seeds().place_in(diagram_.window, diagram_.grid.without_periods());
 }
 
 Kernel& Filling::kernel(const char* file, const char* name, Neighbourhood neighbourhood) {
@@ -198,8 +200,8 @@ DiagramContents written(const DiagramState& state, const Seeds& seeds, Metric me
   contents.metric = checked(metric);
   contents.placement = state.place(seeds, metric);
   contents.seeds = Internal::state(seeds).frame();
-  if (contents.seeds->are_points && metric != Metric::great_circle)
-    contents.points = contents.seeds->place_points_in(state.window, state.grid);
+  if (contents.seeds->are_points || contents.placement->goes_beyond || metric == Metric::great_circle)
+    contents.points = state.place_points(*contents.seeds, metric);
   return contents;
 }
 

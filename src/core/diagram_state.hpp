@@ -23,7 +23,7 @@ namespace vorocl {
 struct DiagramContents {
   std::shared_ptr<const SeedsFrame> seeds;     // that they name; null: the caller wrote them, and named none
   std::shared_ptr<const Placement> placement;  // of these seeds, in the diagram's window; null likewise
-  std::shared_ptr<const PointPlacement> points;  // where the labels are those of points; else null
+  std::shared_ptr<const PointPlacement> points;  // where the labels are made of these places; else null
   Metric metric = Metric::euclidean;             // not known without seeds
   std::string method;                            // empty: the caller wrote them
   cl::Event last;                                // the command that finished them
@@ -66,6 +66,9 @@ struct DiagramState {
   /// Where seeds lie in the window. Throws Error unless they have this device and its grid.
   std::shared_ptr<const Placement> place(const Seeds& seeds, Metric metric = Metric::euclidean) const;
 
+  /// The same as places.
+  std::shared_ptr<const PointPlacement> place_points(const SeedsFrame& frame, Metric metric) const;
+
   /// Waits for the queue. If the device fails, the diagram counts as never filled. Throws BadPoint if the
   /// frame that the labels are of had one.
   void wait();
@@ -97,19 +100,14 @@ class Filling {
   const SeedsFrame& seeds() const { return *next_.seeds; }
   const Placement& placement() const { return *next_.placement; }
 
-  /// The seeds in the window's pixels, as far as it is known which are outside.
-  std::size_t seeds_inside() const {
-    return seeds().size - (placement().outer ? placement().outer->outside : 0);
-  }
-
   Metric metric() const { return next_.metric; }
 
-  /// Takes the places of the seeds, which must be points, for the positions that the labels are made of.
-  const PointPlacement& take_points();
+  /// Whether labels are made of the places of the seeds: of points, and where they go beyond the window.
+  bool takes_places() const { return seeds().are_points || placement().goes_beyond; }
 
-  /// Takes the images of the seeds along periodic axes for outer seeds: for an engine that cannot go round
-  /// periods of this length. The host waits if the device has placed the seeds.
-  void place_images_outside();
+  /// Takes these for what the labels are made of. The host waits if it has no list of the seeds and they go
+  /// beyond the window.
+  const PointPlacement& take_places();
 
   /// A kernel of the diagram for these seeds and this metric, on the diagram's device or that with another
   /// tuning.

@@ -47,34 +47,26 @@ PackedPositions::PackedPositions(const PixelGrid& grid) : bits{{16, 15}}, empty(
 
 std::shared_ptr<const Placement> place_in_window(const Device& device, const Window& window,
                                                  const PixelGrid& shown, const std::vector<Place>& places) {
-  std::vector<PlanePosition> seen;  // from the window's first pixel
   std::vector<std::uint32_t> packed;
-  seen.reserve(places.size() + 1);  // one more is added when they are uploaded
-  packed.reserve(places.size() + 1);
-  bool all_inside = true;
+  packed.reserve(places.size() + 1);  // one more is added when they are uploaded
+  std::size_t outside = 0;
   for (const Place& place : places) {
     if (is_absent(place)) {
-      seen.push_back({{absent_coordinate, 0}});
       packed.push_back(absent_position);
       continue;
     }
-    const PlanePosition here = {{static_cast<cl_int>(pixel_of(place.x) - window.x()),
-                                 static_cast<cl_int>(pixel_of(place.y) - window.y())}};
-    const bool inside = is_inside(shown, here);
-    seen.push_back(here);
-    packed.push_back(inside ? pack(here.s[0], here.s[1]) : absent_position);
-    all_inside = all_inside && inside;
+    const std::int64_t x = pixel_of(place.x) - window.x(), y = pixel_of(place.y) - window.y();
+    const bool inside = x >= 0 && x < shown.width() && y >= 0 && y < shown.height();
+    packed.push_back(inside ? pack(static_cast<int>(x), static_cast<int>(y)) : absent_position);
+    outside += inside ? 0 : 1;
+  }
+  if (outside > 0 || !kernels_go_round(window, shown)) {
+    return std::make_shared<const Placement>(
+        Placement{shown.without_periods(), nullptr, nullptr, false, true, outside});
   }
   packed.push_back(absent_position);
-  Placement placed = {shown, std::make_shared<const cl::Buffer>(allocate_with(device, packed, "the seeds")),
-                      nullptr, nullptr};
-  if (!all_inside || !kernels_go_round(window, shown)) {
-    placed.grid = shown.without_periods();
-    // The images of a tilted grid are places of points.
-    if (!window.grid().is_tilted())
-      placed.outer = gather_outer_seeds(device, window, placed.grid, std::move(seen));
-  }
-  return std::make_shared<const Placement>(std::move(placed));
+  return std::make_shared<const Placement>(Placement{
+      shown, std::make_shared<const cl::Buffer>(allocate_with(device, packed, "the seeds")), nullptr});
 }
 
 }  // namespace vorocl

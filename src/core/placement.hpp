@@ -4,12 +4,16 @@
 #include <memory>
 #include <vector>
 
-#include "core/outer_seeds.hpp"
 #include "core/place.hpp"
 #include "runtime/pixel_grid.hpp"
+#include "vorocl/device.hpp"
+#include "vorocl/grid.hpp"
 #include "vorocl/opencl.hpp"
 
 namespace vorocl {
+
+/// The x of a seed that is absent: ABSENT of kernels/core/units.cl.
+constexpr cl_int absent_coordinate = INT32_MIN;
 
 /// What kernels get of a frame. Nothing of it changes.
 struct Placement {
@@ -17,24 +21,27 @@ struct Placement {
   /// outside.
   PixelGrid grid;
 
-  /// One uint32 per seed: y << 16 | x of its pixel, or absent_position if it is absent or outside the window;
-  /// in a volume as VoxelBits has it, or absent_voxel. And one more such value at the end.
+  /// Null of a frame that goes beyond the window. Else one uint32 per seed: y << 16 | x of its pixel, or
+  /// absent_position if it is absent; in a volume as VoxelBits has it, or absent_voxel. And one more such
+  /// value at the end.
   std::shared_ptr<const cl::Buffer> positions;
 
   /// The places, where a kernel has made them with the positions: see place_on_grid(). Else null.
   std::shared_ptr<const cl::Buffer> places;
 
-  /// The seeds outside, and images across the ends of periods; null if there are none.
-  std::shared_ptr<const OuterSeeds> outer;
-
   /// Of a volume: see are_crowded().
   bool is_crowded = false;
+
+  /// Whether seeds lie outside the window, or images of them that kernels do not find themselves: then labels
+  /// are made of PointPlacement alone.
+  bool goes_beyond = false;
+  std::size_t outside = 0;  // so many seeds
 };
 
 /// The position in a volume of a seed that is absent: EMPTY of kernels/volumes/position.cl.
 constexpr std::uint32_t absent_voxel = 0x80000000u;
 
-/// The position of a seed that is absent, or outside the window: EMPTY of position.cl.
+/// The position of a seed that is absent: EMPTY of position.cl.
 constexpr std::uint32_t absent_position = 0x80008000u;
 
 /// Whether many seeds of a volume stand close together, as those of a surface or a solid do, and others of

@@ -63,7 +63,7 @@ std::vector<cl_int2> order_of(std::vector<cl_uint> ids, std::size_t count, Place
 /// What does not depend on where the seeds are; all of them are places themselves.
 PointPlacement placement_of(const Window& window, const PixelGrid& shown, const cl::Buffer& seeds,
                             std::size_t count) {
-  const Region region = labelled_region(window, home_region(window));
+  const Region region = labelled_region(window);
   const auto as_int = [](std::int64_t number) { return static_cast<cl_int>(number); };
   const Periods periods(window.grid());
   return {shown,
@@ -84,7 +84,8 @@ std::shared_ptr<const PointPlacement> placed_points(const Window& window, const 
 }
 
 std::shared_ptr<const PointPlacement> place_points(const Device& device, const Window& window,
-                                                   const PixelGrid& shown, const std::vector<Place>& given) {
+                                                   const PixelGrid& shown, const std::vector<Place>& given,
+                                                   bool are_points) {
   const std::size_t count = given.size();
   // So that all seeds are near where they lie themselves.
   constexpr std::int64_t most_if_tilted = most_pixels_away / 2;
@@ -98,52 +99,68 @@ std::shared_ptr<const PointPlacement> place_points(const Device& device, const W
     return given[id] - Place{in_fractions(window.x()), in_fractions(window.y())};
   };
   const Images images(grid, fractions_of_pixel);
-  std::vector<cl_int2> seeds;
-  seeds.reserve(count + 1);
-  bool all_inside = true, all_near = true;
+  bool all_inside = true, all_near = true, is_far = false;
   for (std::size_t id = 0; id < count; ++id) {
-    const bool there = !is_absent(given[id]);
-    const Place place = there ? place_of(id) : Place{}, near = near_image(place, images);
-    seeds.push_back(there && fits(near) ? as_int2(near) : absent_point);
+    if (is_absent(given[id])) continue;
+    const Place place = place_of(id);
     all_near = all_near && fits(place);
-    all_inside = all_inside && (!there || (place.x >= 0 && place.x < in_fractions(shown.width()) &&
-                                           place.y >= 0 && place.y < in_fractions(shown.height())));
+    all_inside = all_inside && place.x >= 0 && place.x < in_fractions(shown.width()) && place.y >= 0 &&
+                 place.y < in_fractions(shown.height());
   }
-  seeds.push_back(absent_point);
 
-  PointPlacement placed = placement_of(window, shown, allocate_with(device, seeds, "the seeds"), count);
-  if (all_inside && kernels_go_round(window, shown))
-    return std::make_shared<const PointPlacement>(std::move(placed));
-
-  placed.grid = shown.without_periods();
-  std::vector<cl_int2> places;
+  std::vector<Place> places;
   std::vector<cl_uint> ids;
-  const Region region = labelled_region(window, home_region(window));
-  if (!region.empty()) {
+  const bool go_round = all_inside && kernels_go_round(window, shown);
+  const Region region = labelled_region(window);
+  if (!go_round && !region.empty()) {
     const Region centres = centres_of(region);
     const auto each = [&](auto use) {
       for (std::size_t id = 0; id < count; ++id) {
         if (is_absent(given[id])) continue;
-        each_place(centres, images, place_of(id), [&](const Place& place, bool) { use(place, id); });
+        each_place(centres, images, place_of(id), [&](const Place& place) { use(place, id); });
       }
     };
     Rim rim(centres);
     each([&](const Place& place, std::size_t) { rim.add(place); });
     each([&](const Place& place, std::size_t id) {
       if (rim.rules_out(place)) return;
-      if (!fits(place)) {
+      if (!fits(place) && are_points) {
         throw Error("seed " + std::to_string(id) + " may own pixels of the diagram, and lies more than " +
                     std::to_string(most_pixels_away) +
                     " pixels from its window's first one: that is too far for positions within a pixel; snap "
                     "the seeds to pixels, or take a window nearer to them");
       }
-      places.push_back(as_int2(place));
+      is_far = is_far || !fits(place);
+      places.push_back(place);
       ids.push_back(static_cast<cl_uint>(id));
     });
   }
+
+  const auto packed = [&](const Place& place) {
+    return is_far ? as_int2({pixel_of(place.x), pixel_of(place.y)}) : as_int2(place);
+  };
+  std::vector<cl_int2> seeds;
+  seeds.reserve(count + 1);
+  for (std::size_t id = 0; id < count; ++id) {
+    if (is_absent(given[id])) {
+      seeds.push_back(absent_point);
+      continue;
+    }
+    const Place place = is_far ? place_of(id) : near_image(place_of(id), images);
+    seeds.push_back(is_far || fits(place) ? packed(place) : absent_point);
+  }
+  seeds.push_back(absent_point);
+  PointPlacement placed = placement_of(window, shown, allocate_with(device, seeds, "the seeds"), count);
+  if (go_round) return std::make_shared<const PointPlacement>(std::move(placed));
+
+  placed.grid = shown.without_periods();
+  placed.is_far = is_far;
   placed.count = static_cast<cl_uint>(places.size());
   if (!places.empty()) {
-    placed.places = allocate_with(device, places, "the seeds of a window");
+    std::vector<cl_int2> of_places;
+    of_places.reserve(places.size());
+    for (const Place& place : places) of_places.push_back(packed(place));
+    placed.places = allocate_with(device, of_places, "the seeds of a window");
     placed.ids = allocate_with(device, ids, "the seeds of a window");
     if (!all_near)
       placed.order = allocate_with(device, order_of(ids, count, place_of), "the order of the seeds");

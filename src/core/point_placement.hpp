@@ -12,9 +12,9 @@
 
 namespace vorocl {
 
-/// What kernels get of the points of a frame. Nothing of it changes. Positions are in fractions of a pixel
-/// from the window's first pixel. In a tilted grid those of snapped seeds are points too, at the centres of
-/// their pixels, for images do not lie in the middle of pixels.
+/// What kernels get of points, and of seeds at the centres of pixels where a window does not hold them all or
+/// images do not lie in the middle of pixels. Nothing of it changes. Positions are in fractions of a pixel
+/// from the window's first pixel.
 struct PointPlacement {
   PixelGrid grid;     // the window's pixels; its axes are periodic where the kernels themselves go round
   cl::Buffer seeds;   // int2 by id, and one more that is absent: where a seed lies or, in long periods, its
@@ -25,12 +25,15 @@ struct PointPlacement {
   cl_uint count = 0;  // of places
   cl_int4 region{};   // the pixels that get labels: left, top, right, bottom
   cl_int4 periods{};  // in pixels, 0 along an axis that is not periodic; and the tilt, in fractions
+  bool is_far =
+      false;  // positions are in pixels, of seeds at their centres of which some are too far for fractions
 };
 
-/// Places points that the host knows, from the grid's first pixel on. Throws Error if one that may own a
-/// pixel is too far away for 32 bits.
+/// Places points that the host knows, from the grid's first pixel on, or seeds at the centres of pixels.
+/// Throws Error if a point that may own a pixel is too far away for 32 bits.
 std::shared_ptr<const PointPlacement> place_points(const Device& device, const Window& window,
-                                                   const PixelGrid& shown, const std::vector<Place>& places);
+                                                   const PixelGrid& shown, const std::vector<Place>& places,
+                                                   bool are_points);
 
 /// The same of points that a kernel has placed in all of a grid whose periods kernels go round themselves.
 std::shared_ptr<const PointPlacement> placed_points(const Window& window, const PixelGrid& shown,

@@ -40,7 +40,7 @@ class FarthestIfTilted {
     const Place way = {in_fractions(pixel_of(to.x) - pixel_of(from.x)),
                        in_fractions(pixel_of(to.y) - pixel_of(from.y))};
     std::int64_t least = std::max(images_.x, images_.y);
-    each_place(start, images_, way, [&](const Place& image, bool) {
+    each_place(start, images_, way, [&](const Place& image) {
       least = std::min(least, std::max(std::abs(image.x), std::abs(image.y)));
     });
     greatest_ = std::max(greatest_, least);
@@ -294,16 +294,15 @@ std::shared_ptr<const PointPlacement> SeedsFrame::place_points_in(const Window& 
   return placements->of_points.get(window, shown, [&] {
     return whole && whole->places && kernels_go_round(window, shown)
                ? placed_points(window, shown, *whole->places, size)
-               : place_points(device, window, shown, *places());
+               : place_points(device, window, shown, *places(), are_points);
   });
 }
 
-void refuse_outer_seeds(const Placement& placement, const SeedsFrame& frame, const char* what) {
+void refuse_seeds_beyond(const Placement& placement, const SeedsFrame& frame, const char* what) {
   refuse_tilted(frame.grid, what);
-  if (!placement.outer) return;
-  const std::size_t outside = placement.outer->outside;
-  if (outside > 0) {
-    throw Error(std::to_string(outside) + " of " + std::to_string(frame.size) +
+  if (!placement.goes_beyond) return;
+  if (placement.outside > 0) {
+    throw Error(std::to_string(placement.outside) + " of " + std::to_string(frame.size) +
                 " seeds lie outside the diagram's window, which " + what +
                 " cannot take; only exact diagrams do");
   }

@@ -95,7 +95,7 @@ struct SeedsFrame {
   /// Whether its points are not snapped: an engine may do that.
   bool is_off_centre = false;
 
-  /// All of the grid in a diagram, made with the frame; null if that is not possible, or needs outer seeds.
+  /// All of the grid in a diagram, made with the frame; null if that is not possible, or goes beyond it.
   std::shared_ptr<const Placement> whole = nullptr;
 
   /// The frame before (which does not remember its own), where the host does not know how far the seeds went.
@@ -113,7 +113,7 @@ struct SeedsFrame {
   /// places() where the window is not the whole grid.
   std::shared_ptr<const Placement> place_in(const Window& window, const PixelGrid& shown) const;
 
-  /// The same where `are_points`.
+  /// The same as places, where `are_points` or the frame goes beyond the window.
   std::shared_ptr<const PointPlacement> place_points_in(const Window& window, const PixelGrid& shown) const;
 
   /// The seeds on the globe: see globe/globe.hpp.
@@ -155,6 +155,6 @@ inline Point in_pixels(const Place& place) {
 /// Throws Error if seeds lie outside a diagram's window, or across the ends of its periods, or the grid is
 /// tilted, for something
 /// ("jump flooding") that does not know them.
-void refuse_outer_seeds(const Placement& placement, const SeedsFrame& frame, const char* what);
+void refuse_seeds_beyond(const Placement& placement, const SeedsFrame& frame, const char* what);
 
 }  // namespace vorocl

@@ -203,8 +203,7 @@ void SeedsState::place_by_kernel(SeedsFrame& next, const PointsThere& points, co
   if (next.are_points && next.is_off_centre)
     places = rooms_of_places_.take(
         device, (points.count + 1) * word * static_cast<std::size_t>(numbers_of_place(next.grid)));
-  next.whole =
-      std::make_shared<const Placement>(Placement{whole_of(next.grid), positions, places, nullptr, false});
+  next.whole = std::make_shared<const Placement>(Placement{whole_of(next.grid), positions, places});
   place_on_grid(device, kernels, next.grid, options.outside, points, absence, *positions,
                 places ? *places : cl::Buffer(), found);
 }
@@ -218,7 +217,7 @@ void SeedsState::upload_positions(SeedsFrame& next, std::vector<std::uint32_t>&&
   std::shared_ptr<const cl::Buffer> places;
   if (are_voxels && next.are_points)
     places = std::make_shared<const cl::Buffer>(allocate_with(device, places_of(next), "the seeds"));
-  next.whole = std::make_shared<const Placement>(Placement{pixels, positions, places, nullptr, crowded});
+  next.whole = std::make_shared<const Placement>(Placement{pixels, positions, places, crowded});
   packed.push_back(PackedPositions(pixels).empty);
   upload_.start(device, *positions, std::move(packed));
 }
@@ -302,8 +301,8 @@ void SeedsState::place(const PointBuffer& points) {
 
 void SeedsState::place_on_device(std::size_t count, std::shared_ptr<const cl::Buffer> positions) {
   SeedsFrame next = next_frame(grid(), count, count < size());
-  next.whole = std::make_shared<const Placement>(
-      Placement{PixelGrid(Window(grid())), std::move(positions), nullptr, nullptr, false});
+  next.whole =
+      std::make_shared<const Placement>(Placement{PixelGrid(Window(grid())), std::move(positions), nullptr});
   find_way_to(next);
   commit(std::make_shared<const SeedsFrame>(std::move(next)), std::vector<bool>(count, true));
 }
@@ -336,7 +335,7 @@ std::shared_ptr<cl::Buffer> SeedsState::room_for_positions(std::size_t count) {
 std::shared_ptr<cl::Buffer> SeedsState::copy_to_move(const char* what) {
   const PixelGrid pixels{Window(grid())};
   const std::shared_ptr<const Placement> placement = frame_->place_in(grid(), pixels);
-  refuse_outer_seeds(*placement, *frame_, what);
+  refuse_seeds_beyond(*placement, *frame_, what);
   std::shared_ptr<cl::Buffer> positions = room_for_positions(size());
   copy(device, *placement->positions, *positions, (size() + 1) * sizeof(std::uint32_t));
   return positions;
@@ -344,8 +343,7 @@ std::shared_ptr<cl::Buffer> SeedsState::copy_to_move(const char* what) {
 
 void SeedsState::moved(const std::shared_ptr<cl::Buffer>& positions, double way) {
   SeedsFrame next = *frame_;
-  next.whole = std::make_shared<const Placement>(
-      Placement{PixelGrid(Window(grid())), positions, nullptr, nullptr, false});
+  next.whole = std::make_shared<const Placement>(Placement{PixelGrid(Window(grid())), positions, nullptr});
   next.given = {};
   next.there = {};
   next.marks = nullptr;

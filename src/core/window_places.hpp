@@ -68,27 +68,19 @@ struct Images {
   }
 };
 
-/// The pixels of a window that lie in its grid's one period, where seeds lie themselves and not their images.
-inline Region home_region(const Window& window) {
+/// The pixels of a window that get labels: of an axis that it shows more than a period of, those in the
+/// grid's own period.
+inline Region labelled_region(const Window& window) {
   Region region = {0, 0, window.width() - 1, window.height() - 1};
   const Periods periods(window.grid());
-  if (periods.x > 0) {
+  if (periods.x > 0 && window.width() > periods.x) {
     region.left = std::max<std::int64_t>(region.left, -window.x());
     region.right = std::min(region.right, periods.x - 1 - window.x());
   }
-  if (periods.y > 0) {
+  if (periods.y > 0 && window.height() > periods.y) {
     region.top = std::max<std::int64_t>(region.top, -window.y());
     region.bottom = std::min(region.bottom, periods.y - 1 - window.y());
   }
-  return region;
-}
-
-/// The pixels of a window that get labels: all of them where it shows no more than a period of an axis.
-inline Region labelled_region(const Window& window, const Region& home) {
-  Region region = home;
-  const Periods periods(window.grid());
-  if (window.width() <= periods.x) region.left = 0, region.right = window.width() - 1;
-  if (window.height() <= periods.y) region.top = 0, region.bottom = window.height() - 1;
   return region;
 }
 
@@ -106,8 +98,7 @@ struct Turns {
   std::int64_t first = 0, last = 0;
 };
 
-/// Calls a function with each place of a seed that may be the nearest one of a pixel of the region, and
-/// whether it is an image.
+/// Calls a function with each place of a seed that may be the nearest one of a pixel of the region.
 template <typename Use>
 void each_place(const Region& region, const Images& images, const Place& seed, Use use) {
   const Turns rows(seed.y, images.y, region.top - images.reach_y, region.bottom + images.reach_y);
@@ -115,7 +106,7 @@ void each_place(const Region& region, const Images& images, const Place& seed, U
     const std::int64_t at = seed.x + j * images.shift;
     const Turns turns(at, images.x, region.left - images.reach_x, region.right + images.reach_x);
     for (std::int64_t i = turns.first; i <= turns.last; ++i)
-      use(Place{at + i * images.x, seed.y + j * images.y}, i != 0 || j != 0);
+      use(Place{at + i * images.x, seed.y + j * images.y});
   }
 }
 

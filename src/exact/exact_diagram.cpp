@@ -14,8 +14,8 @@ Report exact_diagram(const Seeds& seeds, Diagram& diagram, const ExactOptions& o
   if (options.metric == Metric::great_circle) return exact_diagram_on_globe(filling, state);
   if (state.grid.is_volume()) check_exact_volume(filling, state);
   if (labels_by_passes(filling, state)) return exact_diagram_by_passes(filling, state);
-  const bool in_groups = state.device.tuning().shape == Shape::group && !filling.seeds().are_points;
-  return in_groups ? exact_diagram_in_groups(filling, state) : exact_diagram_by_places(filling, state);
+  return labels_in_groups(filling, state) ? exact_diagram_in_groups(filling, state)
+                                          : exact_diagram_by_places(filling, state);
 }
 
 }  // namespace vorocl

@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "exact/group_index.hpp"
-#include "exact/outer.hpp"
 #include "runtime/buffer.hpp"
 #include "runtime/device_state.hpp"
 #include "runtime/opencl_info.hpp"
@@ -37,16 +36,16 @@ std::size_t groups_of_search(const Device& device, std::size_t patches) {
   return std::min(patches, 8 * units);
 }
 
-/// Whether the index has room for images of the seeds along these periods.
-bool index_holds_images(const PixelGrid& grid) {
-  return (!grid.periodic_x() || grid.width() <= MOST_PERIOD_OF_GROUPS) &&
-         (!grid.periodic_y() || grid.height() <= MOST_PERIOD_OF_GROUPS);
-}
-
 }  // namespace
 
+bool labels_in_groups(const Filling& filling, const DiagramState& state) {
+  const PixelGrid& grid = filling.placement().grid;
+  const bool index_holds_images = (!grid.periodic_x() || grid.width() <= MOST_PERIOD_OF_GROUPS) &&
+                                  (!grid.periodic_y() || grid.height() <= MOST_PERIOD_OF_GROUPS);
+  return state.device.tuning().shape == Shape::group && !filling.takes_places() && index_holds_images;
+}
+
 Report exact_diagram_in_groups(Filling& filling, DiagramState& state) {
-  if (!index_holds_images(filling.placement().grid)) filling.place_images_outside();
   const PixelGrid& grid = filling.placement().grid;
   const int width = grid.width(), height = grid.height();
   const std::size_t patches = patches_along(width) * patches_along(height);
@@ -74,7 +73,7 @@ Report exact_diagram_in_groups(Filling& filling, DiagramState& state) {
       kernel("search_patches", of_search)
           .over_items(groups_of_search(device, patches) * of_search, bits, starts, word_starts, list, ids,
                       width, height, pyramid, top, memory.queue, state.labels);
-  return filling.commit(0, first, add_outer_seeds(filling, state, last));
+  return filling.commit(0, first, last);
 }
 
 }  // namespace vorocl

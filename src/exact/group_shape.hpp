@@ -6,6 +6,9 @@
 
 namespace vorocl {
 
+/// Whether the device has this shape, and the index room for the seeds and their images.
+bool labels_in_groups(const Filling& filling, const DiagramState& state);
+
 /// Fills a diagram as exact_diagram(), whatever the shape of the device's tuning.
 Report exact_diagram_in_groups(Filling& filling, DiagramState& state);
 

@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 
-#include "exact/outer.hpp"
 #include "runtime/buffer.hpp"
 // Last: it defines macros.
 #include "exact/sizes.cl"
@@ -21,39 +20,33 @@ struct PlacesWorkspace {
   cl::Buffer starts, x, y, z, ids;  // the index (kernels/exact/bins.cl)
 };
 
-/// What is labelled: points with their images, or seeds at the centres of pixels inside the window, which
-/// others outside are held against afterwards.
+/// What is labelled: places with their images, or seeds at the centres of the grid's pixels.
 struct Places {
   PixelGrid grid;
   cl::Buffer given, ids, order;
   bool have_ids;
   cl_uint count;
-  std::size_t near;     // those that are in the index
   cl_int4 first, last;  // of the pixels that get labels
+  bool is_far;          // see PointPlacement
 };
 
 Places places_of(Filling& filling) {
-  const bool are_points = filling.seeds().are_points;
   const PixelGrid& grid = filling.placement().grid;
-  if (are_points && !grid.is_volume()) {
-    const PointPlacement& points = filling.take_points();
+  if (filling.takes_places() && !grid.is_volume()) {
+    const PointPlacement& points = filling.take_places();
     const bool have_ids = points.ids() != nullptr;
     const auto& [left, top, right, bottom] = points.region.s;
-    return {points.grid,  points.places, have_ids ? points.ids : points.places,
-            points.order, have_ids,      points.count,
-            points.count, {{left, top}}, {{right, bottom}}};
+    return {points.grid,   points.places,     have_ids ? points.ids : points.places,
+            points.order,  have_ids,          points.count,
+            {{left, top}}, {{right, bottom}}, points.is_far};
   }
-  const cl::Buffer& given = are_points ? filling.take_points().seeds : *filling.placement().positions;
-  const std::size_t count = filling.seeds().size;
-  return {grid,
-          given,
-          given,
-          given,
-          false,
-          static_cast<cl_uint>(count),
-          grid.is_volume() ? count : filling.seeds_inside(),
-          {},
-          {{grid.width() - 1, grid.height() - 1, grid.depth() - 1}}};
+  const cl::Buffer& given =
+      filling.takes_places() ? filling.take_places().seeds : *filling.placement().positions;
+  return {grid,  given,
+          given, given,
+          false, static_cast<cl_uint>(filling.seeds().size),
+          {},    {{grid.width() - 1, grid.height() - 1, grid.depth() - 1}},
+          false};
 }
 
 std::size_t along(int pixels, int bits) { return (static_cast<std::size_t>(pixels - 1) >> bits) + 1; }
@@ -94,20 +87,29 @@ void check_exact_volume(const Filling& filling, const DiagramState& state) {
 }
 
 Report exact_diagram_by_places(Filling& filling, DiagramState& state) {
-  const auto [grid, given, given_ids, order, have_ids, count, near, first, last] = places_of(filling);
+  const auto [grid, given, given_ids, order, have_ids, count, first, last, is_far] = places_of(filling);
+  const Device device = without_vectors(state.device);  // kernels have vectors of their own
+  if (is_far) {
+    const cl::Event done =
+        state.kernels
+            .get(device, "exact/far.cl", "label_far", grid,
+                 {filling.metric(), Neighbourhood::moore, Extent::far})
+            .over_items(grid.pixels(), given, given_ids, order, count,
+                        cl_int4{{grid.width(), grid.height(), 1, 0}}, first, last, state.labels);
+    return filling.commit(0, done, done);
+  }
   const cl_int has_ids = have_ids;
-  const cl_int4 size = {{grid.width(), grid.height(), grid.depth(), 0}}, bits = bits_of_bins(grid, near);
+  const cl_int4 size = {{grid.width(), grid.height(), grid.depth(), 0}}, bits = bits_of_bins(grid, count);
   const std::size_t rows = along(grid.height(), bits.s[1]) * along(grid.depth(), bits.s[2]);
-  const std::size_t entries = rows * (along(grid.width(), bits.s[0]) + 1), room = near + BEHIND_PLACES;
+  const std::size_t entries = rows * (along(grid.width(), bits.s[0]) + 1), room = count + BEHIND_PLACES;
   auto& [counts, ends, sorted, starts, x, y, z, ids] = state.workspace<PlacesWorkspace>();
   state.reserve(starts, (entries + 1) * word);
   for (cl::Buffer* const list : {&x, &y, &ids}) state.reserve(*list, room * word);
   if (grid.is_volume()) state.reserve(z, room * word);
 
-  const Device device = without_vectors(state.device);  // kernels have vectors of their own
   const bool by_pixels = device.tuning().shape == Shape::group;
   KernelOptions options{filling.metric()};
-  if (filling.seeds().are_points) options.extent = Extent::fractions;
+  if (filling.takes_places()) options.extent = Extent::fractions;
   const auto kernel = [&, &of_grid = grid](const char* name, std::size_t items_of_group) -> Kernel& {
     return state.kernels
         .get(device, by_pixels ? "exact/pixels.cl" : "exact/diagram.cl", name, of_grid, options)
@@ -149,8 +151,7 @@ Report exact_diagram_by_places(Filling& filling, DiagramState& state) {
   const cl::Event end =
       kernel("label_regions", 1)
           .over_items(items, starts, x, y, of_z, ids, order, has_ids, bits, size, first, last, state.labels);
-  const bool has_outer = !filling.seeds().are_points && !grid.is_volume();
-  return filling.commit(0, begin, has_outer ? add_outer_seeds(filling, state, end) : end);
+  return filling.commit(0, begin, end);
 }
 
 }  // namespace vorocl

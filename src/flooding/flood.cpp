@@ -18,7 +18,7 @@ std::size_t divided_up(int number, int by) { return static_cast<std::size_t>((nu
 
 void refuse_what_floods_cannot_take(const Filling& filling, const DiagramState& diagram) {
   refuse_volume(diagram.window.grid(), "flooding");
-  refuse_outer_seeds(filling.placement(), filling.seeds(), "flooding");
+  refuse_seeds_beyond(filling.placement(), filling.seeds(), "flooding");
   if (!diagram.window.is_whole()) {
     throw Error(
         "the diagram's window is a part of its grid, which flooding cannot take; only exact diagrams do");

@@ -122,43 +122,32 @@ void check_globe(const Grid& grid) {
   throw Error(text.str());
 }
 
-std::shared_ptr<const Placement> place_on_globe(const Window& window, const PixelGrid& shown,
-                                                const SeedsFrame& frame) {
-  check_globe(window.grid());
+std::shared_ptr<const PointPlacement> place_on_globe(const Window& window, const PixelGrid& shown,
+                                                     const SeedsFrame& frame) {
   const Grid& grid = window.grid();
-  std::vector<PlanePosition> seen;
-  std::vector<std::uint32_t> packed;
-  auto outer = std::make_shared<OuterSeeds>();
+  const auto centre = [](std::int64_t pixel) { return static_cast<cl_int>(centre_of(pixel)); };
+  std::vector<cl_int2> seeds;
+  seeds.reserve(frame.size + 1);
   for (const std::optional<Point>& point : points_on_globe(frame)) {
     if (!point) {
-      seen.push_back({{absent_coordinate, 0}});
-      packed.push_back(absent_position);
+      seeds.push_back({{absent_coordinate, 0}});
       continue;
     }
     const double west = grid.x().from(),
                  east = point->x - 2 * half_turn * std::floor((point->x - west) / (2 * half_turn));
-    const PlanePosition here = {{pixel_in(grid.x(), east, window.x(), window.width()),
-                                 pixel_in(grid.y(), point->y, window.y(), window.height())}};
-    const bool inside = is_inside(shown, here);
-    seen.push_back(here);
-    packed.push_back(inside ? pack(here.s[0], here.s[1]) : absent_position);
-    outer->outside += inside ? 0 : 1;
+    seeds.push_back({{centre(pixel_in(grid.x(), east, window.x(), window.width())),
+                      centre(pixel_in(grid.y(), point->y, window.y(), window.height()))}});
   }
-  seen.push_back({{absent_coordinate, 0}});
-  packed.push_back(absent_position);
-  if (outer->outside > 0)
-    outer->seeds = allocate_with(frame.device, seen, "the seeds");
-  else
-    outer = nullptr;
-  return std::make_shared<const Placement>(
-      Placement{shown, std::make_shared<const cl::Buffer>(allocate_with(frame.device, packed, "the seeds")),
-                nullptr, outer});
+  seeds.push_back({{absent_coordinate, 0}});
+  return std::make_shared<const PointPlacement>(
+      PointPlacement{shown, allocate_with(frame.device, seeds, "the seeds on the globe"), {}, {}, {}});
 }
 
 Report exact_diagram_on_globe(Filling& filling, DiagramState& state) {
   if (!has_doubles(state.device))  // which what the kernels share with those of exact cells names
     throw Error("great circles need doubles (cl_khr_fp64), which " + state.device.name() + " does not have");
   const std::shared_ptr<const GlobeSeeds> seeds = filling.seeds().on_globe();
+  filling.take_places();
   const GlobePixels pixels(state.device, state.window);
   if (seeds->sites == 0) {
     const cl::Event filled = fill(state.device, state.labels, no_label, state.grid.pixels());

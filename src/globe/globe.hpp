@@ -28,10 +28,10 @@ struct GlobePixels {
 /// Throws Error unless a grid is one of longitudes and latitudes, in degrees.
 void check_globe(const Grid& grid);
 
-/// The pixels of seeds in a window of such a grid, and which lie outside, for measures that count labels.
-/// Throws Error as check_globe(), and BadPoint for a latitude beyond a pole.
-std::shared_ptr<const Placement> place_on_globe(const Window& window, const PixelGrid& shown,
-                                                const SeedsFrame& frame);
+/// The pixels of seeds in a window of such a grid, for measures that count labels; those outside are beside
+/// it. Throws BadPoint for a latitude beyond a pole.
+std::shared_ptr<const PointPlacement> place_on_globe(const Window& window, const PixelGrid& shown,
+                                                     const SeedsFrame& frame);
 
 Report exact_diagram_on_globe(Filling& filling, DiagramState& state);
 

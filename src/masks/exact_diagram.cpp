@@ -2,7 +2,6 @@
 
 #include <optional>
 
-#include "exact/outer.hpp"
 #include "masks/mask_engine.hpp"
 
 namespace vorocl {
@@ -37,13 +36,13 @@ bool shows_marks(const Filling& filling) {
 bool labels_by_passes(const Filling& filling, const DiagramState& state) {
   if (state.device.tuning().shape != Shape::vector) return false;
   if (shows_marks(filling)) return true;
-  if (filling.seeds().are_points) return false;
+  if (filling.takes_places()) return false;
   const Placement& placement = filling.placement();
   // Of fewer seeds the ways by their index take a shorter time (measured).
   const std::size_t pixels_per_seed = placement.grid.is_volume()              ? 24
                                       : filling.metric() == Metric::euclidean ? 28
                                                                               : 40;
-  return placement.is_crowded || filling.seeds_inside() > placement.grid.pixels() / pixels_per_seed;
+  return placement.is_crowded || filling.seeds().size > placement.grid.pixels() / pixels_per_seed;
 }
 
 Report exact_diagram_by_passes(Filling& filling, DiagramState& state) {
@@ -61,7 +60,7 @@ Report exact_diagram_by_passes(Filling& filling, DiagramState& state) {
                                               filling.seeds().size, state.labels);
   targets.labels = state.labels;
   const cl::Event last = engine.run(state.kernels, *memory.seeds, targets, memory.buffers, state.memory).last;
-  return filling.commit(0, first, add_outer_seeds(filling, state, last));
+  return filling.commit(0, first, last);
 }
 
 }  // namespace vorocl

@@ -52,7 +52,7 @@ Report distance_field(const Diagram& diagram, Field<std::int32_t>& field) {
   Measuring<FieldState<std::int32_t>> measuring(field);
   FieldState<std::int32_t>& state = measuring.state();
   MeasuredDiagram of = cells_of(diagram);
-  if (of.points) {
+  if (of.points && of.seeds->are_points) {
     throw Error(
         "distances to points within their pixels, and in tilted grids, are no whole numbers; ask for a field "
         "of floats, or snap the seeds to pixels of a grid that is not tilted");

@@ -24,20 +24,14 @@ struct MeasuredDiagram {
   std::shared_ptr<const SeedsFrame> seeds;     // null: the labels name none
   std::shared_ptr<const Placement> placement;  // null likewise
   Metric metric;
-  std::shared_ptr<const PointPlacement> points = nullptr;  // where the labels are those of points
+  std::shared_ptr<const PointPlacement> points = nullptr;  // where the labels are made of places
 
   // What kernels get of the seeds: SEED_PARAMETERS of seed_place.cl, and the options that they are built
   // for. Only where there are seeds.
-  const cl::Buffer& positions() const {
-    if (points) return points->seeds;
-    return outer() ? outer()->seeds : *placement->positions;
-  }
+  const cl::Buffer& positions() const { return points ? points->seeds : *placement->positions; }
   cl_uint count() const { return static_cast<cl_uint>(seeds->size); }
   cl_int4 size() const { return {{grid.width(), grid.height(), grid.depth(), 0}}; }
-  cl_int4 periods() const {
-    if (points) return points->periods;
-    return outer() ? outer()->periods : cl_int4{};
-  }
+  cl_int4 periods() const { return points ? points->periods : cl_int4{}; }
 
   /// How many pixels further along x the first row follows the last one, where the window is periodic in y.
   /// It is 0 unless the grid is tilted. Pixels of one row lie between those of the other, and the two that
@@ -45,7 +39,7 @@ struct MeasuredDiagram {
   int shift() const;
 
   /// The unit of distances: so many are a pixel.
-  int units_of_pixel() const { return points ? fractions_of_pixel : 1; }
+  int units_of_pixel() const { return extent() == Extent::fractions ? fractions_of_pixel : 1; }
 
   /// A distance of the kernels', which is squared if Euclidean, in pixels.
   double in_pixels(double distance) const {
@@ -64,11 +58,7 @@ struct MeasuredDiagram {
   }
 
  private:
-  const OuterSeeds* outer() const { return placement->outer.get(); }
-  Extent extent() const {
-    if (points) return Extent::fractions;
-    return outer() ? outer()->extent : Extent::grid;
-  }
+  Extent extent() const { return !points ? Extent::grid : points->is_far ? Extent::far : Extent::fractions; }
 };
 
 /// The labels of the row that follows the last one of a diagram which is periodic in y: the first row, which

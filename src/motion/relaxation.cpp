@@ -116,7 +116,7 @@ Move move_to_centroids(Seeds& seeds, Rounds& rounds, double tolerance) {
 
 double energy_of(const Diagram& diagram, Rounds& rounds) {
   const MeasuredDiagram of = cells_of(diagram);
-  refuse_outer_seeds(*of.placement, *of.seeds, "the energy of Lloyd relaxation");
+  refuse_seeds_beyond(*of.placement, *of.seeds, "the energy of Lloyd relaxation");
   const Blocks blocks(of.device, of.grid);
   make_room(rounds.partial, of.device, blocks.count() * sizeof(cl_ulong));
   blocks.run(rounds.kernels, "motion/relaxation.cl", "add_energy", of.options_without_metric(),
@@ -144,7 +144,7 @@ Relaxation relax(Seeds& seeds, Diagram& diagram, const Simulation::Engine& engin
                 " pixels; it must be above 0");
   }
   if (!engine) throw Error("a relaxation needs an engine that fills the diagram");
-  refuse_outer_seeds(*Internal::state(diagram).place(seeds), *Internal::state(seeds).frame(),
+  refuse_seeds_beyond(*Internal::state(diagram).place(seeds), *Internal::state(seeds).frame(),
                      "Lloyd relaxation");
   if (!diagram.window().is_whole()) {
     throw Error("Lloyd relaxation needs a diagram of the whole grid, and this one shows a part of it");

@@ -43,7 +43,6 @@ std::string build_options(int vector_width, const PixelGrid& grid, const KernelO
          " -DVOROCL_GUARD=" + std::to_string(guard) + build_option(options.metric) +
          (options.neighbourhood == Neighbourhood::moore ? " -DVOROCL_NEIGHBOURS=9"
                                                         : " -DVOROCL_NEIGHBOURS=5") +
-         (options.extent != Extent::grid ? " -DVOROCL_OUTER_SEEDS" : "") +
          (options.extent >= Extent::far ? " -DVOROCL_FAR" : "") +
          (options.extent == Extent::fractions ? " -DVOROCL_FRACTIONS" : "") +
          (grid.periodic_x() ? " -DVOROCL_PERIODIC_X" : "") +

@@ -20,9 +20,9 @@ namespace vorocl {
 /// Spare values before and behind the pixels of an image that waves read at an offset (see vector.cl).
 constexpr std::size_t guard = 16;
 
-/// Where seeds lie: in the grid, or outside it too, so that distances to them take 32 bits or 64; or within
-/// their pixels (kernels/core/plane.cl).
-enum class Extent { grid, near, far, fractions };
+/// Where seeds lie: in pixels of the grid, or also in those outside it, or at places within pixels
+/// (kernels/core/units.cl). Distances take 32 bits in the grid, else 64.
+enum class Extent { grid, far, fractions };
 
 /// What kernels are specialised for when they are built, besides the vector width and the grid's periodic
 /// axes. Kernels that read no distance or no neighbours are the same for all.

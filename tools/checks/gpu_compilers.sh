@@ -39,7 +39,7 @@ needs intel "$OCLOC" ocloc
 kernel_files() {
   grep -lE '^ *(VECTOR_KERNEL|kernel) void' kernels/{core,flooding,measures,motion}/*.cl
   echo kernels/exact/group/diagram.cl
-  echo kernels/exact/outer.cl
+  echo kernels/exact/far.cl
   echo kernels/exact/pixels.cl
   printf 'kernels/volumes/%s.cl\n' jump_flooding seeds
 }
@@ -56,9 +56,8 @@ compile() { # TARGET LIBRARY FILE OPTION...
     -Xclang -mlink-builtin-bitcode -Xclang "$LIBCLC/$2" -Wno-linker-warnings "${@:4}" "$3" -o "$work/kernel.s"
 }
 
-# What programs are built for besides a plain grid: seeds outside it, and periodic axes.
+# What programs are built for besides a plain grid: places, and periodic axes.
 more_options() { # FILE
-  if grep -q 'plane.cl' "$1"; then printf '%s\n' -DVOROCL_OUTER_SEEDS '-DVOROCL_OUTER_SEEDS -DVOROCL_FAR'; fi
   if [[ $1 == kernels/exact/group/diagram.cl ]]; then echo '-DVOROCL_PERIODIC_X -DVOROCL_PERIODIC_Y'; fi
   if [[ $1 == kernels/exact/pixels.cl ]]; then printf '%s\n' -DVOROCL_FRACTIONS '-DVOROCL_FRACTIONS -DVOROCL_PERIODIC_X -DVOROCL_PERIODIC_Y'; fi
   if [[ $1 == kernels/measures/* ]]; then echo '-DVOROCL_DIMENSIONS=3 -DVOROCL_PERIODIC_X -DVOROCL_PERIODIC_Y -DVOROCL_PERIODIC_Z'; fi

@@ -45,14 +45,14 @@ builds_of() { # KERNEL
     return
   fi
   for width in 1 2 4 8 16; do echo "$width -DVOROCL_EUCLIDEAN -DVOROCL_NEIGHBOURS=9"; done
-  for width in 1 2 16; do echo "$width -DVOROCL_MANHATTAN -DVOROCL_NEIGHBOURS=9 -DVOROCL_OUTER_SEEDS -DVOROCL_FAR"; done
+  for width in 1 2 16; do echo "$width -DVOROCL_MANHATTAN -DVOROCL_NEIGHBOURS=9 -DVOROCL_FAR"; done
   for width in 1 16; do
     echo "$width -DVOROCL_MANHATTAN -DVOROCL_NEIGHBOURS=9"
     for metric in EUCLIDEAN MANHATTAN; do
-      echo "$width -DVOROCL_$metric -DVOROCL_NEIGHBOURS=9 -DVOROCL_OUTER_SEEDS"
+      echo "$width -DVOROCL_$metric -DVOROCL_NEIGHBOURS=9 -DVOROCL_FAR -DVOROCL_FRACTIONS"
       [[ $kernel != kernels/*/*flooding.cl ]] || echo "$width -DVOROCL_$metric -DVOROCL_NEIGHBOURS=5"
     done
-    echo "$width -DVOROCL_EUCLIDEAN -DVOROCL_NEIGHBOURS=9 -DVOROCL_OUTER_SEEDS -DVOROCL_FAR"
+    echo "$width -DVOROCL_EUCLIDEAN -DVOROCL_NEIGHBOURS=9 -DVOROCL_FAR"
     for axes in -DVOROCL_PERIODIC_X -DVOROCL_PERIODIC_Y '-DVOROCL_PERIODIC_X -DVOROCL_PERIODIC_Y'; do
       echo "$width -DVOROCL_EUCLIDEAN -DVOROCL_NEIGHBOURS=9 $axes"
     done
@@ -62,16 +62,16 @@ builds_of() { # KERNEL
       done
       echo "$width -DVOROCL_EUCLIDEAN -DVOROCL_NEIGHBOURS=9 -DVOROCL_SPACING_X=2 -DVOROCL_SPACING_Y=1 -DVOROCL_SPACING_Z=4"
     fi
-    if [[ $kernel == kernels/measures/* ]]; then  # of windows that show a whole period, in outer positions
-      for axes in -DVOROCL_PERIODIC_X '-DVOROCL_PERIODIC_X -DVOROCL_PERIODIC_Y -DVOROCL_FAR'; do
-        echo "$width -DVOROCL_EUCLIDEAN -DVOROCL_NEIGHBOURS=9 -DVOROCL_OUTER_SEEDS $axes"
+    if [[ $kernel == kernels/measures/* ]]; then  # of windows that show a whole period, where seeds may lie outside
+      for axes in -DVOROCL_PERIODIC_X '-DVOROCL_PERIODIC_X -DVOROCL_PERIODIC_Y -DVOROCL_FRACTIONS'; do
+        echo "$width -DVOROCL_EUCLIDEAN -DVOROCL_NEIGHBOURS=9 -DVOROCL_FAR $axes"
       done
       for axes in '' '-DVOROCL_PERIODIC_X -DVOROCL_PERIODIC_Z -DVOROCL_SPACING_X=2 -DVOROCL_SPACING_Y=1 -DVOROCL_SPACING_Z=4'; do
         echo "$width -DVOROCL_MANHATTAN -DVOROCL_NEIGHBOURS=9 -DVOROCL_DIMENSIONS=3 $axes"
       done
     fi
     if [[ $kernel == kernels/exact/* ]]; then  # the tests' own lists, nearly every one of which overflows
-      for metric in EUCLIDEAN 'MANHATTAN -DVOROCL_OUTER_SEEDS' 'EUCLIDEAN -DVOROCL_FRACTIONS' 'MANHATTAN -DVOROCL_FRACTIONS'; do
+      for metric in EUCLIDEAN MANHATTAN 'EUCLIDEAN -DVOROCL_FRACTIONS' 'MANHATTAN -DVOROCL_FRACTIONS'; do
         echo "$width -DVOROCL_$metric -DVOROCL_NEIGHBOURS=9 $short_lists"
       done
     fi
