@@ -145,7 +145,7 @@ Relaxation relax(Seeds& seeds, Diagram& diagram, const Simulation::Engine& engin
   }
   if (!engine) throw Error("a relaxation needs an engine that fills the diagram");
   refuse_seeds_beyond(*Internal::state(diagram).place(seeds), *Internal::state(seeds).frame(),
-                     "Lloyd relaxation");
+                      "Lloyd relaxation");
   if (!diagram.window().is_whole()) {
     throw Error("Lloyd relaxation needs a diagram of the whole grid, and this one shows a part of it");
   }
