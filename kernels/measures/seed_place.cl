@@ -1,6 +1,6 @@
 // Where the seeds of a diagram lie, as its measures see it. Seeds are packed positions of the window's pixels
-// (core/position.cl) or of a volume's voxels (volumes/position.cl); with the build option VOROCL_FAR they are coordinates,
-// of which some in a plane lie outside the pixels: of pixels, or with VOROCL_FRACTIONS in fractions of them
+// (core/position.cl) or of a volume's voxels (volumes/position.cl). With the build option VOROCL_FAR they are
+// coordinates, and some in a plane lie outside the pixels: whole pixels, or with VOROCL_FRACTIONS fractions of them
 // (core/units.cl).
 //
 // THE RULE OF PLACE. Where the window shows one whole period of an axis (PERIODIC_X and its like), a pixel lies the
