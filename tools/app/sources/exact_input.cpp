@@ -155,7 +155,11 @@ ExactFrames::ExactFrames(const SeedOptions& options)
       is_volume_(command::is_volume(options)),
       reader_(options_, is_volume_) {}
 
-std::optional<Input> ExactFrames::next() { return skip() ? std::optional(take()) : std::nullopt; }
+std::optional<Input> ExactFrames::next() {
+  if (!skip()) return std::nullopt;
+  reader_.read_ahead();
+  return take();
+}
 
 Input ExactFrames::take() {
   Frame& frame = reader_.frame();
