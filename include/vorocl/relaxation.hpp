@@ -39,6 +39,12 @@ struct RelaxOptions {
   /// Many seeds come to lie as densely as the square root of the density (Gersho 1979; Du, Faber & Gunzburger
   /// 1999): give its square for seeds as dense as it is.
   std::vector<float> density = {};
+
+  /// Whether a seed goes to the centroid of its polygon, in a volume of its polyhedron, as exact_cells() cuts
+  /// it in the units of the data. Seeds lie anywhere then, in volumes too, and so their cells become as even
+  /// as those of Lloyd's algorithm on polygons with any number of pixels: these are of the diagrams and of
+  /// the energies alone. There is no density.
+  bool exact = false;
 };
 
 /// Called with the diagram at the start (0 rounds so far) and after each round. Returns whether to go on.
@@ -67,9 +73,10 @@ VOROCL_API double energy(const Diagram& diagram);
 /// come; an approximate engine may make it rise now and then. Where seeds are snapped, those that come to
 /// share a pixel leave the higher id without a cell. Waits in every round. Throws Error if `rounds` is
 /// negative, the tolerance is not above 0, the density has another size than the diagram, a value that is
-/// negative or not finite, or nothing but zeros, seeds lie outside the grid, or the diagram's window is not
-/// the whole grid, with periods of at most 32,000 pixels; and as the engine does. Cost of a density: 2 bytes
-/// of device memory per pixel and 96 per seed.
+/// negative or not finite, or nothing but zeros, an exact relaxation has one, or seeds that are snapped to
+/// pixels, seeds lie outside the grid, or the diagram's window is not
+/// the whole grid, with periods of at most 32,000 pixels; and as the engine and exact_cells() do. Cost of a
+/// density: 2 bytes of device memory per pixel and 96 per seed.
 VOROCL_API Relaxation relax(Seeds& seeds, Diagram& diagram, const Simulation::Engine& engine, int rounds,
                             const RelaxationObserver& observer = {}, const RelaxOptions& options = {});
 

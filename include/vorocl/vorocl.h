@@ -472,6 +472,12 @@ VOROCL_API vorocl_status vorocl_relax(vorocl_seeds* seeds, vorocl_diagram* diagr
                                       const vorocl_method_options* options, int rounds, const float* density,
                                       double* energies, size_t* moved, vorocl_relaxation* relaxation);
 
+/// As vorocl_relax() without a density, to the centroids of polygons or polyhedra, which lie anywhere: see
+/// vorocl::RelaxOptions::exact.
+VOROCL_API vorocl_status vorocl_relax_exact(vorocl_seeds* seeds, vorocl_diagram* diagram, const char* method,
+                                            const vorocl_method_options* options, int rounds,
+                                            double* energies, size_t* moved, vorocl_relaxation* relaxation);
+
 /// @}
 /// @name Measures that give numbers: they wait
 /// @{

@@ -273,7 +273,7 @@ auto errors(DiagramObject& diagram, std::optional<bool> of_points) {
 
 /// The energies, what each round moved and whether it converged. Ctrl-C ends it after a round.
 auto relax(DiagramObject& diagram, SeedsObject& seeds, const std::string& name, const std::string& metric,
-           int rounds, const std::optional<Array<const float>>& density) {
+           int rounds, const std::optional<Array<const float>>& density, bool exact) {
   const Turns turns(diagram.mutex, seeds.mutex);
   const auto go_on = [](const Seeds&, const Diagram&, const Relaxation&) {
     const nb::gil_scoped_acquire locked;
@@ -284,6 +284,7 @@ auto relax(DiagramObject& diagram, SeedsObject& seeds, const std::string& name, 
   diagram.seeds.reset();
   show(diagram.diagram, seeds.seeds.grid());
   RelaxOptions options;
+  options.exact = exact;
   if (density) options.density.assign(density->data(), density->data() + density->size());
   Relaxation done = vorocl::relax(seeds.seeds, diagram.diagram, fills, rounds, go_on, options);
   remember(diagram, seeds.seeds, method(name).exact ? seeds.snap : Snap::to_pixels);
@@ -316,7 +317,7 @@ void bind_diagrams(nb::module_& module) {
       .def("vertices", measured<double, measure_vertices>)
       .def("errors", errors, nb::arg("of_points").none(), without_gil())
       .def("relax", relax, nb::arg("seeds"), nb::arg("method"), nb::arg("metric"), nb::arg("rounds"),
-           nb::arg("density").none(), without_gil());
+           nb::arg("density").none(), nb::arg("exact"), without_gil());
 }
 
 }  // namespace vorocl::python

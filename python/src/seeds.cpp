@@ -91,16 +91,20 @@ auto said(SeedsObject& seeds) {
   return (seeds.seeds.*say)();
 }
 
-/// Where exact diagrams have the seeds, in pixels or in the units of their points: rows (x, y), or (x, y, z).
-void read(SeedsObject& seeds, const Array<double, nb::ndim<2>>& points, bool in_pixels) {
+/// Where exact diagrams have the seeds, in pixels or in the units of their points, or where these lie
+/// themselves: rows (x, y), or (x, y, z).
+void read(SeedsObject& seeds, const Array<double, nb::ndim<2>>& points, bool in_pixels, bool themselves) {
   const Turn turn(seeds.mutex);
-  const std::vector<std::optional<Point>> places = seeds.seeds.read_pixels();
+  const std::vector<std::optional<Point>> places =
+      themselves ? seeds.seeds.read() : seeds.seeds.read_pixels();
   if (places.size() != points.shape(0)) throw Error("the seeds were moved while they were read");
   constexpr double none = std::numeric_limits<double>::quiet_NaN();
   const Grid grid = seeds.seeds.grid();
   double* row = points.data();
   for (const std::optional<Point>& place : places) {
-    const Point point = !place ? Point{none, none, none} : in_pixels ? *place : grid.point(*place);
+    const Point point = !place                    ? Point{none, none, none}
+                        : in_pixels || themselves ? *place
+                                                  : grid.point(*place);
     const double coordinates[] = {point.x, point.y, point.z};
     row = std::copy_n(coordinates, points.shape(1), row);
   }
@@ -118,7 +122,8 @@ void bind_seeds(nb::module_& module) {
       .def_static("from_mask", from_mask, nb::arg("device"), nb::arg("grid"), nb::arg("mask"), without_gil())
       .def("move_to", move_to, nb::arg("points"), nb::arg("grid").none(), without_gil())
       .def_prop_ro("displacement", said<&Seeds::displacement>, without_gil())
-      .def("read", read, nb::arg("points"), nb::arg("in_pixels"), without_gil())
+      .def("read", read, nb::arg("points"), nb::arg("in_pixels"), nb::arg("themselves") = false,
+           without_gil())
       .def_prop_ro("size", said<&Seeds::size>, without_gil())
       .def_prop_ro("alive", said<&Seeds::alive>, without_gil());
 }

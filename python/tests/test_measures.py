@@ -1,9 +1,12 @@
 """Measures of cells, against NumPy, freud and the labels themselves."""
 
+import itertools
+
 import freud
 import numpy as np
 import pandas
 import pytest
+import scipy.spatial
 from oracles import brute_force, offsets, pixel_centres, rounded
 
 import vorocl
@@ -191,6 +194,45 @@ def test_a_density_draws_points():
     np.testing.assert_allclose(relaxed.energies[0], (density * squares).sum(), rtol=1e-3)
     as_integers = vorocl.relax(points, (60, 90), rounds=1, density=density.astype(np.uint8).tolist())
     np.testing.assert_array_equal(as_integers.points, relaxed.points)
+
+
+def centroids_by_scipy(points, sides, periodic):
+    """Of polygons or polyhedra in a box, where mirrored points make its sides, or images repeat it."""
+    around, dimensions = [points], points.shape[1]
+    for image in itertools.product((-1, 0, 1), repeat=dimensions):
+        if any(image) and periodic:
+            around.append(points + np.array(image) * sides)
+        elif sum(map(abs, image)) == 1:
+            mirrored = points.copy()
+            axis = np.flatnonzero(image)[0]
+            mirrored[:, axis] = (image[axis] + 1) * sides[axis] - points[:, axis]
+            around.append(mirrored)
+    cells = scipy.spatial.Voronoi(np.concatenate(around))
+    centroids = []
+    for region in cells.point_region[: len(points)]:
+        corners = cells.vertices[cells.regions[region]]
+        parts = corners[scipy.spatial.Delaunay(corners).simplices]
+        sizes = abs(np.linalg.det(parts[:, 1:] - parts[:, :1]))
+        centroids.append(sizes @ parts.mean(axis=1) / sizes.sum())
+    return np.array(centroids)
+
+
+@pytest.mark.parametrize("shape, periodic", [((9, 23), False), ((9, 23), True), ((5, 4, 6), False), ((5, 4, 6), True)])
+def test_exact_rounds_are_those_of_scipys_cells(shape, periodic):
+    sides = np.array([4.0, 3.0, 2.0][: len(shape)])
+    bounds = (0, 0, 4, 3) if len(shape) == 2 else (0, 0, 0, 4, 3, 2)
+    points = np.random.default_rng(6).uniform(0, sides, (30, len(shape)))
+    axes = (periodic,) * len(shape)
+    relaxed = vorocl.relax(points, shape, rounds=4, bounds=bounds, periodic=axes, exact=True)
+    assert relaxed.moved.tolist() == [30] * 4 and relaxed.energies[-1] < relaxed.energies[0]
+    for _ in range(4):
+        points = centroids_by_scipy(points, sides, periodic)
+        points = points % sides if periodic else points
+    np.testing.assert_allclose(relaxed.points, points, atol=1e-6)
+    with pytest.raises(vorocl.BadArgument, match="no density"):
+        vorocl.relax(points, shape, bounds=bounds, exact=True, density=np.ones(shape))
+    with pytest.raises(vorocl.BadArgument, match="snapped to pixels"):
+        vorocl.relax(points, shape, bounds=bounds, exact=True, snap=True)
 
 
 @pytest.mark.parametrize("truth", ["snapped", "true"])

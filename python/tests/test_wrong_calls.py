@@ -72,6 +72,7 @@ WRONG = {
 WRONG["sampling"] = ["x", [], (1, 1001), (1, 1, 1), -1, 0, np.nan, np.inf, object(), {}, Hostile()]
 WRONG["shape"] = WRONG["grid"]
 WRONG["spacing"] = WRONG["sampling"]
+WRONG["exact"] = WRONG["y_up"]
 WRONG["input"] = NO_NUMBERS + [np.zeros((2, 2, 2, 2)), [[1], [1, 2]], np.array([["a", "b"]]), np.zeros((2, 2), "M8[s]")]
 WRONG["label_image"] = WRONG["input"] + [np.zeros((2, 2), "V8")]
 WRONG["mask"] = WRONG["labels"] + WRONG["label_image"]
@@ -90,7 +91,7 @@ CALLS = {
     vorocl.vertices: POINTS + ("units",),
     vorocl.Grid: ("shape", "bounds", "periodic", "tilt", "y_up"),
     vorocl.exact_cells: ("points", "bounds", "periodic", "tilt", "outside", "device"),
-    vorocl.relax: ("points", "grid", "rounds", "density", "method", "bounds", "periodic", "outside", "y_up", "snap", "device"),
+    vorocl.relax: ("points", "grid", "rounds", "density", "exact", "method", "bounds", "periodic", "outside", "y_up", "snap", "device"),
     vorocl.from_mask: ("mask", "method", "metric", "periodic", "out", "device"),
     vorocl.expand_labels: ("label_image", "distance", "spacing", "device"),
     vorocl.distance_transform_edt: ("input", "sampling", "distances", "indices", "device"),

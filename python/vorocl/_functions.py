@@ -600,13 +600,14 @@ def relax(
     *,
     rounds: int = 100,
     density: Optional[ArrayLike] = None,
+    exact: bool = False,
     method: Method = "exact",
     outside: Outside = "count",
     snap: Optional[bool] = None,
     device: Optional[Device] = None,
     **frame: Unpack[Frame],
 ) -> Relaxation:
-    """Move points to the centroids of their cells, again and again: Lloyd's algorithm on pixels.
+    """Move points to the centroids of their cells, again and again: Lloyd's algorithm on pixels, or on polygons.
 
     A round moves every point to its cell's centroid, rounded to 1/4096 of a pixel, in Euclidean diagrams; to the pixel
     or voxel that is nearest to it where points are snapped, and in volumes. Ctrl-C ends it after a round.
@@ -621,6 +622,10 @@ def relax(
         those of cells whose pixels weigh as much (Secord 2002, "Weighted Voronoi stippling"). Weights are rounded to
         1/65535 of the greatest. Points whose cells weigh nothing stay. Many points come to lie as densely as the square
         root of the density: give its square for points as dense as it is.
+    exact : bool, optional
+        Move the points to the centroids of their polygons, in volumes of their polyhedra, as `exact_cells` cuts them:
+        anywhere, so that cells become as even as polygons do with any number of pixels, of which the energies are.
+        Without a density, and not of snapped points.
     <method, outside, snap, device>
 
     Returns
@@ -644,11 +649,12 @@ def relax(
     seeds = Seeds(points, shown_by, outside=outside, snap=to_snap(snap, method), device=device)
     made = Diagram(shown_by, device=device)
     weights = None if density is None else to_density(density, made.shape)
+    is_exact = to_flag(exact, "exact")
     energies, moved, converged = made._diagram.relax(
-        seeds._seeds, to_text(method, "method"), "euclidean", to_count(rounds, "rounds"), weights
+        seeds._seeds, to_text(method, "method"), "euclidean", to_count(rounds, "rounds"), weights, is_exact
     )
     places = np.empty((len(seeds), len(made.shape)))
-    seeds._seeds.read(places, in_pixels=False)
+    seeds._seeds.read(places, in_pixels=False, themselves=is_exact)
     return Relaxation(places, np.array(energies), np.array(moved, np.int64), converged)
 
 

@@ -74,9 +74,11 @@ vorocl_status vorocl_prepare(const char* name, const vorocl_device* device, voro
   });
 }
 
-vorocl_status vorocl_relax(vorocl_seeds* seeds, vorocl_diagram* diagram, const char* name,
-                           const vorocl_method_options* options, int rounds, const float* density,
-                           double* energies, size_t* moved, vorocl_relaxation* relaxation) {
+namespace {
+
+vorocl_status relax_seeds(vorocl_seeds* seeds, vorocl_diagram* diagram, const char* name,
+                          const vorocl_method_options* options, int rounds, const float* density,
+                          bool is_exact, double* energies, size_t* moved, vorocl_relaxation* relaxation) {
   return guarded([&] {
     const Method& wanted = method(&given(name, "method"));
     vorocl_diagram& to = given(diagram, "diagram");
@@ -86,10 +88,25 @@ vorocl_status vorocl_relax(vorocl_seeds* seeds, vorocl_diagram* diagram, const c
       return to.report;
     };
     RelaxOptions how;
+    how.exact = is_exact;
     if (density != nullptr) how.density.assign(density, density + to.diagram.window().pixels());
     const Relaxation done = relax(of(seeds), to.diagram, run, rounds, {}, how);
     if (energies != nullptr) std::copy(done.energies.begin(), done.energies.end(), energies);
     if (moved != nullptr) std::copy(done.moved.begin(), done.moved.end(), moved);
     store(relaxation, vorocl_relaxation{done.rounds(), done.converged ? 1 : 0});
   });
+}
+
+}  // namespace
+
+vorocl_status vorocl_relax(vorocl_seeds* seeds, vorocl_diagram* diagram, const char* name,
+                           const vorocl_method_options* options, int rounds, const float* density,
+                           double* energies, size_t* moved, vorocl_relaxation* relaxation) {
+  return relax_seeds(seeds, diagram, name, options, rounds, density, false, energies, moved, relaxation);
+}
+
+vorocl_status vorocl_relax_exact(vorocl_seeds* seeds, vorocl_diagram* diagram, const char* name,
+                                 const vorocl_method_options* options, int rounds, double* energies,
+                                 size_t* moved, vorocl_relaxation* relaxation) {
+  return relax_seeds(seeds, diagram, name, options, rounds, nullptr, true, energies, moved, relaxation);
 }

@@ -1,6 +1,7 @@
 #include "vorocl/relaxation.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <cstdlib>
 #include <memory>
@@ -13,6 +14,7 @@
 #include "motion/density.hpp"
 #include "runtime/buffer.hpp"
 #include "vorocl/cells.hpp"
+#include "vorocl/exact_cells.hpp"
 
 namespace vorocl {
 
@@ -25,6 +27,7 @@ struct Rounds {
   std::optional<Density> density;  // none: all pixels weigh alike
   KernelSet kernels;
   CellSumsResult cells;               // of pixels that weigh alike
+  ExactCellsResult exact_cells;       // without pixels
   cl::Buffer partial;                 // the energy of each block
   cl::Buffer moved_and_displacement;  // two words: see relaxation.cl
 };
@@ -114,6 +117,33 @@ Move move_to_centroids(Seeds& seeds, Rounds& rounds, double tolerance) {
   return move;
 }
 
+Move move_to_exact_centroids(Seeds& seeds, ExactCellsResult& result, double tolerance) {
+  exact_cells(seeds, result);
+  const std::vector<ExactCell> cells = result.read();
+  std::vector<std::optional<Point>> points = seeds.read();
+  Move move;
+  // Both may be images of each other's. Returns by how many pixels the seed moves.
+  const auto go = [](const Axis& axis, double to, double& at) {
+    const double length = axis.to() - axis.from(), pixel = length / static_cast<double>(axis.pixels());
+    double way = to - at;
+    if (axis.is_periodic()) way -= std::nearbyint(way / length) * length;
+    at = to - axis.periods_beyond(to) * length;
+    return std::abs(way) / pixel;
+  };
+  for (std::size_t id = 0; id < cells.size(); ++id) {
+    if (!points[id] || cells[id].area == 0) continue;
+    const Point& to = cells[id].centroid;
+    const Grid& grid = seeds.grid();
+    Point& at = *points[id];
+    const double way = std::max({go(grid.x(), to.x, at.x), go(grid.y(), to.y, at.y),
+                                 grid.is_volume() ? go(grid.z(), to.z, at.z) : 0});
+    move.seeds += way > 0 ? 1 : 0;
+    move.displacement = std::max(move.displacement, way);
+  }
+  if (move.displacement >= tolerance) seeds.move_to(points);
+  return move;
+}
+
 double energy_of(const Diagram& diagram, Rounds& rounds) {
   const MeasuredDiagram of = cells_of(diagram);
   refuse_seeds_beyond(*of.placement, *of.seeds, "the energy of Lloyd relaxation");
@@ -144,6 +174,11 @@ Relaxation relax(Seeds& seeds, Diagram& diagram, const Simulation::Engine& engin
                 " pixels; it must be above 0");
   }
   if (!engine) throw Error("a relaxation needs an engine that fills the diagram");
+  if (options.exact && !options.density.empty()) {
+    throw Error("an exact relaxation takes no density, which weighs pixels; leave one of them out");
+  }
+  if (options.exact && Internal::state(seeds).options.snap == Snap::to_pixels)
+    throw Error("an exact relaxation moves seeds to any place, and these are snapped to pixels");
   refuse_seeds_beyond(*Internal::state(diagram).place(seeds), *Internal::state(seeds).frame(),
                       "Lloyd relaxation");
   if (!diagram.window().is_whole()) {
@@ -157,8 +192,9 @@ Relaxation relax(Seeds& seeds, Diagram& diagram, const Simulation::Engine& engin
     relaxation.energies.push_back(state.density ? state.density->weigh(diagram) : energy_of(diagram, state));
     const bool goes_on = !observer || observer(seeds, diagram, relaxation);
     if (!goes_on || relaxation.rounds() == rounds) return relaxation;
-    if (!state.density) cell_sums(diagram, state.cells);
-    const Move move = move_to_centroids(seeds, state, options.tolerance);
+    if (!state.density && !options.exact) cell_sums(diagram, state.cells);
+    const Move move = options.exact ? move_to_exact_centroids(seeds, state.exact_cells, options.tolerance)
+                                    : move_to_centroids(seeds, state, options.tolerance);
     if (move.displacement < options.tolerance) {
       relaxation.converged = true;
       return relaxation;

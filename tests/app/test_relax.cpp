@@ -84,6 +84,37 @@ BOOST_AUTO_TEST_CASE(seeds_settle_and_their_points_give_the_same_diagram) {
   BOOST_TEST(read_raw_npy<double>(folder / "q.npy").type == "<f8");
 }
 
+BOOST_AUTO_TEST_CASE(exact_rounds_leave_cells_whose_centroids_are_their_points) {
+  const TemporaryFolder folder;
+  for (const std::string periodic : {"", " --periodic xy --bounds -3,0,17,14"}) {
+    const std::string seeds =
+        periodic.empty() ? " --random 40 --rng-seed 3" : " --points first.csv" + periodic;
+    const json result = json::parse(succeeds(folder,
+                                             "relax --exact --size 40x28 --rounds 500 --json "
+                                             "--relaxed-points p.csv" +
+                                                 seeds));
+    BOOST_TEST(result.at("settled") == true);
+    BOOST_TEST(result.at("energy_at_end").get<double>() < result.at("energy_at_start").get<double>());
+    const std::string bounds = periodic.empty() ? " --bounds 0,0,40,28" : periodic;
+    succeeds(folder,
+             "cells --exact --points p.csv --cells c.csv --cell-columns x,y,centroid_x,centroid_y" + bounds);
+    const double pixel = periodic.empty() ? 1 : 0.5;
+    for (const TableRow& row : read_table(folder / "c.csv").rows) {
+      BOOST_TEST(std::abs(*row[0] - *row[2]) < pixel / 64);
+      BOOST_TEST(std::abs(*row[1] - *row[3]) < pixel / 64);
+    }
+    if (periodic.empty()) {
+      std::string points = "id,x,y\n";
+      for (const TableRow& row : read_table(folder / "p.csv").rows)
+        points += fmt::format("{},{},{}\n", *row[0], *row[1] * *row[1] / 80 - 3, *row[2] / 2);
+      folder.file("first.csv", points);
+    }
+  }
+  const std::string exact = "relax --exact --points p.csv --size 9x9 --rounds 1 --relaxed-points q.csv ";
+  refuses(folder, exact + "--snap", usage, {"--exact", "--snap"});
+  refuses(folder, exact + "--density d.png", usage, {"--exact", "--density"});
+}
+
 BOOST_AUTO_TEST_CASE(whole_pixels_settle_as_points_and_snapped_ones_on_the_lattice) {
   const TemporaryFolder folder;
   const std::string grid = " --size 200x140 ", relax = "relax --rounds 60 --json --relaxed-points p.csv";

@@ -322,6 +322,16 @@ static void test_relaxation(const vorocl_device* device) {
   density[pixels - 1] = -1;
   FAILS(vorocl_relax(seeds, diagram, "exact", NULL, 0, density, NULL, NULL, NULL), VOROCL_BAD_ARGUMENT,
         "pixel (60, 39)");
+  FAILS(vorocl_relax_exact(seeds, diagram, "exact", NULL, 1, NULL, NULL, NULL), VOROCL_BAD_ARGUMENT,
+        "snapped to pixels");
+  vorocl_seeds_free(seeds);
+  seeds = NULL;
+  const vorocl_point one = {3, 4, 0};
+  OK(vorocl_seeds_from_points(device, window.grid, &one, NULL, 1, VOROCL_OUTSIDE_COUNTS, VOROCL_SNAP_NONE,
+                              &seeds));
+  OK(vorocl_relax_exact(seeds, diagram, "exact", NULL, 1, NULL, moved, &relaxation));
+  OK(vorocl_seeds_read(seeds, places, 1));
+  CHECK(moved[0] == 1 && places[0].x == 30.5 && places[0].y == 20);
   OK(vorocl_relax(seeds, diagram, "jfa", NULL, 5, NULL, NULL, NULL, NULL));
   OK(vorocl_diagram_report(diagram, &waves, NULL, NULL));
   CHECK(waves == 6); /* that of the method's last diagram */

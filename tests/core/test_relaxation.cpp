@@ -1,5 +1,7 @@
 // Lloyd relaxation: energies, motions and where it ends.
 #define BOOST_TEST_MODULE relaxation
+#include <cmath>
+
 #include "measured_cases.hpp"
 #include "read_measures.hpp"
 #include "vorocl/cells.hpp"
@@ -124,6 +126,113 @@ BOOST_AUTO_TEST_CASE(seeds_of_whole_pixels_relax_as_the_points_at_their_centres)
   Seeds snapped(test_device(), grid, points_of(Seeds::random(test_device(), grid, 90, 4)), to_centres);
   Diagram diagram(test_device(), grid);
   BOOST_TEST(relax(snapped, diagram, exactly, 40).converged);
+}
+
+// --- polygons ---
+
+namespace {
+
+/// The centroid of a cell: of the rectangle around its point that the bisectors with all others clip.
+Point centroid_by_clipping(const Grid& grid, const std::vector<Point>& points, std::size_t id) {
+  const Point& at = points[id];
+  const auto length = [](const Axis& axis) { return axis.to() - axis.from(); };
+  const auto ends = [&](const Axis& axis, double middle) {
+    const double half = length(axis) / 2;
+    return axis.is_periodic() ? std::pair(-half, half) : std::pair(axis.from() - middle, axis.to() - middle);
+  };
+  const auto [left, right] = ends(grid.x(), at.x);
+  const auto [low, high] = ends(grid.y(), at.y);
+  std::vector<Point> polygon = {{left, low}, {right, low}, {right, high}, {left, high}};
+  for (std::size_t other = 0; other < points.size(); ++other) {
+    for (int image = 0; image < 9; ++image) {
+      const int along_x = image % 3 - 1, along_y = image / 3 - 1;
+      if ((along_x != 0 && !grid.x().is_periodic()) || (along_y != 0 && !grid.y().is_periodic())) continue;
+      const Point n = {points[other].x + along_x * length(grid.x()) - at.x,
+                       points[other].y + along_y * length(grid.y()) - at.y};
+      const auto beyond = [&](const Point& p) { return p.x * n.x + p.y * n.y - (n.x * n.x + n.y * n.y) / 2; };
+      std::vector<Point> left_over;
+      for (std::size_t i = 0; i < polygon.size(); ++i) {
+        const Point &p = polygon[i], &q = polygon[(i + 1) % polygon.size()];
+        const double from = beyond(p), to = beyond(q);
+        if (from <= 0) left_over.push_back(p);
+        if ((from < 0 && to > 0) || (from > 0 && to < 0)) {
+          const double part = from / (from - to);
+          left_over.push_back({p.x + part * (q.x - p.x), p.y + part * (q.y - p.y)});
+        }
+      }
+      polygon = left_over;
+    }
+  }
+  double area = 0, x = 0, y = 0;
+  for (std::size_t i = 0; i < polygon.size(); ++i) {
+    const Point &p = polygon[i], &q = polygon[(i + 1) % polygon.size()];
+    const double doubled = p.x * q.y - p.y * q.x;
+    area += doubled / 2;
+    x += doubled * (p.x + q.x) / 6;
+    y += doubled * (p.y + q.y) / 6;
+  }
+  return {at.x + x / area, at.y + y / area};
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_CASE(exact_rounds_go_to_the_centroids_of_polygons) {
+  RelaxOptions options;
+  options.exact = true;
+  for (const bool is_periodic : {false, true}) {
+    const Axis x(31, -1, 3), y = Axis(19, 0, 3).reversed();  // few pixels, which are no squares
+    const Grid grid(x, is_periodic ? y.periodic() : y);
+    std::mt19937 random(5);
+    std::uniform_real_distribution<double> uniform(0.01, 2.99);
+    std::vector<Point> points;
+    for (int i = 0; i < 40; ++i) points.push_back({uniform(random) - 0.5, uniform(random)});
+    std::vector<Point> given = points;
+    if (is_periodic) given[7].y += 6;
+    Seeds seeds(test_device(), grid, given);
+    Diagram diagram(test_device(), grid);
+    const Relaxation done = relax(seeds, diagram, exactly, 3, {}, options);
+    BOOST_TEST(done.moved == std::vector<std::size_t>(3, 40), boost::test_tools::per_element());
+    BOOST_TEST(done.energies.back() == energy(diagram));
+    for (int round = 0; round < 3; ++round) {
+      std::vector<Point> next;
+      for (std::size_t id = 0; id < points.size(); ++id) {
+        next.push_back(centroid_by_clipping(grid, points, id));
+        next.back().y -= 3 * std::floor(next.back().y / 3);
+      }
+      points = next;
+    }
+    for (std::size_t id = 0; id < points.size(); ++id) {
+      const Point found = points_of(seeds)[id];
+      const double above = (points[id].y - found.y) / 3;
+      BOOST_TEST(std::abs(found.x - points[id].x) < 1e-7);  // points are rounded to 2^-29 of the longer side
+      BOOST_TEST(std::abs(above - (is_periodic ? std::nearbyint(above) : 0)) < 1e-7);
+      BOOST_TEST((found.y >= 0 && found.y <= 3));
+    }
+    BOOST_TEST(relax(seeds, diagram, exactly, 1000, {}, options).converged);
+  }
+  const Grid ring(Axis(8, 0, 4).periodic(), Axis(2, 0, 1));
+  Seeds even(test_device(), ring, {{1, 0.5}, {11, 0.5}});
+  Diagram of_ring(test_device(), ring);
+  const Relaxation nothing = relax(even, of_ring, exactly, 9, {}, options);
+  BOOST_TEST((nothing.converged && nothing.moved.empty()));
+  const Grid box(Axis(16, 0, 8), Axis(3, 0, 2), Axis(3, 0, 2));
+  Seeds two(test_device(), box, {{1, 0.5, 1}, {2, 0.5, 1}});
+  Diagram diagram(test_device(), box);
+  relax(two, diagram, exactly, 1, {}, options);
+  const std::vector<Point> found = points_of(two);
+  BOOST_TEST((found[0].x == 0.75 && found[0].y == 1 && found[0].z == 1));
+  BOOST_TEST((found[1].x == 4.75 && found[1].y == 1 && found[1].z == 1));
+}
+
+BOOST_AUTO_TEST_CASE(what_exact_rounds_cannot_take_is_refused) {
+  const Grid grid(20, 10);
+  RelaxOptions options;
+  options.exact = true;
+  Seeds seeds(test_device(), grid, {{3, 4}, {12, 5}}), snapped(test_device(), grid, {{3, 4}}, to_centres);
+  Diagram diagram(test_device(), grid);
+  check_error([&] { relax(snapped, diagram, exactly, 1, {}, options); }, {"exact", "snapped to pixels"});
+  options.density.assign(grid.pixels(), 1);
+  check_error([&] { relax(seeds, diagram, exactly, 1, {}, options); }, {"exact", "no density"});
 }
 
 // --- densities ---

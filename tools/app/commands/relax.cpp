@@ -29,6 +29,7 @@ struct RelaxCommand {
   SeedOptions seeds;
   int rounds = 0;
   std::string density_path;
+  bool exact = false;
   std::string device;
   FrameWriterOptions pictures;  // -o: a film or pictures of the rounds, or one picture
   FileRequest labels = {labels_kind(), ""};
@@ -79,11 +80,15 @@ RelaxOutputs open_outputs(const RelaxCommand& options) {
   return outputs;
 }
 
-/// Where seeds are, none of which is absent, in the view's units.
-std::vector<Point> positions_of(const Seeds& seeds, const View& view) {
+/// Where seeds are, none of which is absent, in the view's units; without the rounding of diagrams where they
+/// are exact.
+std::vector<Point> positions_of(const Seeds& seeds, const View& view, bool are_exact) {
+  const Grid& grid = seeds.grid();
   std::vector<Point> points;
-  for (const std::optional<Point>& pixel : seeds.read_pixels())
-    points.push_back(view.position(pixel.value()));
+  for (const std::optional<Point>& seed : are_exact ? seeds.read() : seeds.read_pixels()) {
+    const Point at = seed.value();
+    points.push_back(view.position(are_exact ? Point{grid.x().position(at.x), grid.y().position(at.y)} : at));
+  }
   return points;
 }
 
@@ -186,7 +191,8 @@ std::size_t write_end(const RelaxOutputs& outputs, const RelaxCommand& options, 
   };
   if (outputs.labels) attempt([&] { options.labels.kind.write(*outputs.labels, measures); });
   if (outputs.points) {
-    attempt([&] { write_points(*outputs.points, positions_of(seeds, input.view), input.ids); });
+    attempt(
+        [&] { write_points(*outputs.points, positions_of(seeds, input.view, options.exact), input.ids); });
   }
   if (outputs.energy) attempt([&] { write_energies(*outputs.energy, relaxation); });
   if (outputs.picture) {
@@ -234,6 +240,7 @@ void run(RelaxCommand& options) {
   if (density && options.seeds.random > 0 && !options.seeds.size) options.seeds.size = density->size.grid();
   Input input = read_input(options.seeds);
   RelaxOptions how;
+  how.exact = options.exact;
   how.density = density_of_grid(options, std::move(density), input);
   if (options.seeds.random > 0 && !how.density.empty()) {
     input.place = [&](const Device& device) {
@@ -271,13 +278,18 @@ void add_relax(CommandLine& line) {
       .value_name("K")
       .in_range(0, 1000000000)
       .required();
+  const Option exact = command.add(
+      "--exact", options->exact,
+      "Move seeds to the centroids of their polygons, not of their pixels: cells become as even as polygons "
+      "do with any number of pixels, which are those of pictures, labels and energies");
   command
       .add(
           "--density", options->density_path,
           "How dense the seeds shall be, for each pixel of the grid: a picture, whose dark pixels are dense, "
           "as ink on paper, or numbers in .npy (H, W), of which greater ones are dense; --random takes its "
           "size, and draws points by it")
-      .value_name("IMAGE");
+      .value_name("IMAGE")
+      .excludes(exact);
   add_device_option(command, options->device);
   add_film_options(
       command, options->pictures, "PICTURE|FILM|PICTURES",
@@ -296,6 +308,8 @@ void add_relax(CommandLine& line) {
       .value_name("FILE");
   add_json_option(command, options->json);
   command.set_work([command, options] {
+    if (options->exact && options->seeds.snap == Snap::to_pixels)
+      throw UsageError("--exact moves seeds to any place, and --snap keeps them at pixels");
     if (options->pictures.picture_path.empty()) refuse_picture_options(command, "-o");
     options->seeds.value_column = options->pictures.picture.color.column;
     options->seeds.keeps_inside = "relax cannot take";
