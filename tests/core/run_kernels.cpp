@@ -118,12 +118,13 @@ void make_exact_diagrams(const Device& device, const Grid& grid, int rows, Metri
   }
 }
 
-/// Windows with seeds in and around them, at a distance: all of a grid, a part of a period, and more than
-/// one, whose right and lower parts have no labels.
+/// Windows with seeds in and around them, at a distance: all of a grid, a part of a period, more than
+/// one, whose right and lower parts have no labels, and one that all seeds are far from.
 void make_windows(const Device& device, Metric metric) {
   const Grid plain(40, 25);
-  for (const Window& window : {Window(plain), Window(Grid(50, 38, Axes::xy), 20, 20, 40, 25),
-                               Window(Grid(30, 18, Axes::xy), -3, -2, 40, 25)}) {
+  for (const Window& window :
+       {Window(plain), Window(Grid(50, 38, Axes::xy), 20, 20, 40, 25),
+        Window(Grid(30, 18, Axes::xy), -3, -2, 40, 25), Window(Grid(1000000, 25), 500000, 0, 40, 25)}) {
     Diagram diagram(device, window), by_short_lists(with_lists(device, ListLength::two_entries), window);
     for (const int distance : {40, 100000}) {
       std::vector<Point> points = {{3, 4}, {30, 8}};
@@ -137,7 +138,8 @@ void make_windows(const Device& device, Metric metric) {
       expect(diagram.read(), expected, "windows");
       AllMeasures measures;
       measures.take(diagram, by_short_lists);
-      if (distance < 1000) measures.read();  // farther, whole numbers are too short
+      const bool is_near = distance < 1000 && window.x() < 1000;
+      if (is_near) measures.read();  // farther, whole numbers are too short
       device.finish();
     }
   }
