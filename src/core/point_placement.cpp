@@ -99,11 +99,12 @@ std::shared_ptr<const PointPlacement> place_points(const Device& device, const W
     return given[id] - Place{in_fractions(window.x()), in_fractions(window.y())};
   };
   const Images images(grid, fractions_of_pixel);
-  bool all_inside = true, all_near = true, is_far = false;
+  bool all_inside = true, all_near = true, seeds_fit = true, places_fit = true;
   for (std::size_t id = 0; id < count; ++id) {
     if (is_absent(given[id])) continue;
     const Place place = place_of(id);
     all_near = all_near && fits(place);
+    seeds_fit = seeds_fit && fits(near_image(place, images));
     all_inside = all_inside && place.x >= 0 && place.x < in_fractions(shown.width()) && place.y >= 0 &&
                  place.y < in_fractions(shown.height());
   }
@@ -130,36 +131,41 @@ std::shared_ptr<const PointPlacement> place_points(const Device& device, const W
                     " pixels from its window's first one: that is too far for positions within a pixel; snap "
                     "the seeds to pixels, or take a window nearer to them");
       }
-      is_far = is_far || !fits(place);
+      places_fit = places_fit && fits(place);
       places.push_back(place);
       ids.push_back(static_cast<cl_uint>(id));
     });
   }
 
-  const auto packed = [&](const Place& place) {
-    return is_far ? as_int2({pixel_of(place.x), pixel_of(place.y)}) : as_int2(place);
+  const auto in_whole_pixels = [](const Place& place) {
+    return as_int2({pixel_of(place.x), pixel_of(place.y)});
   };
+  const bool seeds_in_pixels = !seeds_fit && !are_points;
   std::vector<cl_int2> seeds;
   seeds.reserve(count + 1);
   for (std::size_t id = 0; id < count; ++id) {
     if (is_absent(given[id])) {
       seeds.push_back(absent_point);
-      continue;
+    } else if (seeds_in_pixels) {
+      seeds.push_back(in_whole_pixels(place_of(id)));
+    } else {
+      const Place near = near_image(place_of(id), images);
+      seeds.push_back(fits(near) ? as_int2(near) : absent_point);
     }
-    const Place place = is_far ? place_of(id) : near_image(place_of(id), images);
-    seeds.push_back(is_far || fits(place) ? packed(place) : absent_point);
   }
   seeds.push_back(absent_point);
   PointPlacement placed = placement_of(window, shown, allocate_with(device, seeds, "the seeds"), count);
   if (go_round) return std::make_shared<const PointPlacement>(std::move(placed));
 
   placed.grid = shown.without_periods();
-  placed.is_far = is_far;
+  placed.seeds_in_pixels = seeds_in_pixels;
+  placed.places_in_pixels = !places_fit;
   placed.count = static_cast<cl_uint>(places.size());
   if (!places.empty()) {
     std::vector<cl_int2> of_places;
     of_places.reserve(places.size());
-    for (const Place& place : places) of_places.push_back(packed(place));
+    for (const Place& place : places)
+      of_places.push_back(places_fit ? as_int2(place) : in_whole_pixels(place));
     placed.places = allocate_with(device, of_places, "the seeds of a window");
     placed.ids = allocate_with(device, ids, "the seeds of a window");
     if (!all_near)

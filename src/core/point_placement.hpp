@@ -18,15 +18,16 @@ namespace vorocl {
 struct PointPlacement {
   PixelGrid grid;     // the window's pixels; its axes are periodic where the kernels themselves go round
   cl::Buffer seeds;   // int2 by id, and one more that is absent: where a seed lies or, in long periods, its
-                      // image if only that is near. A seed that is far and owns no pixel here is absent too
+                      // image if only that is near. A point that is far and owns no pixel here is absent too
   cl::Buffer order;   // int2 by id: what orders seeds as they lie in the grid themselves
   cl::Buffer places;  // int2: those seeds and images that may own a pixel
   cl::Buffer ids;     // of their seeds; null: they are the seeds
   cl_uint count = 0;  // of places
   cl_int4 region{};   // the pixels that get labels: left, top, right, bottom
   cl_int4 periods{};  // in pixels, 0 along an axis that is not periodic; and the tilt, in fractions
-  bool is_far =
-      false;  // positions are in pixels, of seeds at their centres of which some are too far for fractions
+
+  // Where seeds at the centres of pixels are too far away for fractions, all seeds, or places, are in pixels.
+  bool seeds_in_pixels = false, places_in_pixels = false;
 };
 
 /// Places points that the host knows, from the grid's first pixel on, or seeds at the centres of pixels.

@@ -27,7 +27,7 @@ struct Places {
   bool have_ids;
   cl_uint count;
   cl_int4 first, last;  // of the pixels that get labels
-  bool is_far;          // see PointPlacement
+  bool in_pixels;       // see PointPlacement
 };
 
 Places places_of(Filling& filling) {
@@ -38,7 +38,7 @@ Places places_of(Filling& filling) {
     const auto& [left, top, right, bottom] = points.region.s;
     return {points.grid,   points.places,     have_ids ? points.ids : points.places,
             points.order,  have_ids,          points.count,
-            {{left, top}}, {{right, bottom}}, points.is_far};
+            {{left, top}}, {{right, bottom}}, points.places_in_pixels};
   }
   const cl::Buffer& given =
       filling.takes_places() ? filling.take_places().seeds : *filling.placement().positions;
@@ -87,9 +87,9 @@ void check_exact_volume(const Filling& filling, const DiagramState& state) {
 }
 
 Report exact_diagram_by_places(Filling& filling, DiagramState& state) {
-  const auto [grid, given, given_ids, order, have_ids, count, first, last, is_far] = places_of(filling);
+  const auto [grid, given, given_ids, order, have_ids, count, first, last, in_pixels] = places_of(filling);
   const Device device = without_vectors(state.device);  // kernels have vectors of their own
-  if (is_far) {
+  if (in_pixels) {
     const cl::Event done =
         state.kernels
             .get(device, "exact/far.cl", "label_far", grid,

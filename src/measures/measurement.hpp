@@ -58,7 +58,9 @@ struct MeasuredDiagram {
   }
 
  private:
-  Extent extent() const { return !points ? Extent::grid : points->is_far ? Extent::far : Extent::fractions; }
+  Extent extent() const {
+    return !points ? Extent::grid : points->seeds_in_pixels ? Extent::far : Extent::fractions;
+  }
 };
 
 /// The labels of the row that follows the last one of a diagram which is periodic in y: the first row, which
