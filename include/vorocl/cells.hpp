@@ -1,7 +1,9 @@
 // Measures of the cells of a diagram: area, centroid, extent; of a volume their volume for area.
 #pragma once
 
+#include <cmath>
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <vector>
 
@@ -47,6 +49,12 @@ struct CellShape {
   double largest_distance = 0;  ///< of its pixels to its seed, in pixels; squared if Euclidean
   bool touches_border = false;  ///< it has a pixel next to a border; a periodic axis has none
   int front = 0, back = 0;      ///< of the box: its first slice and its last one, 0 in a plane
+
+  /// The distance itself, of a diagram by this metric; NaN of an empty cell.
+  double farthest(Metric metric) const {
+    if (largest_distance < 0) return std::numeric_limits<double>::quiet_NaN();
+    return metric == Metric::euclidean ? std::sqrt(largest_distance) : largest_distance;
+  }
 };
 
 /// What cell_sums() found, on the device: buffers with one entry per seed, by id. Measuring into them again
@@ -162,6 +170,8 @@ struct CellRow {
   Point centroid;                ///< all NaN of an empty cell; across a period's end it may lie outside
   bool touches_border = false;   ///< of the window; on the globe a pole is none
   std::uint32_t neighbours = 0;  ///< cells that it shares an edge with, in a volume a face
+  double largest_distance =
+      0;  ///< of its pixels to the seed, as distance_field() has it; NaN of an empty cell
 };
 
 /// All cells of the seeds that are there, by id. Takes cell_sums(), cell_shapes() and adjacency(), and waits.

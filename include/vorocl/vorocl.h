@@ -514,7 +514,7 @@ VOROCL_API vorocl_status vorocl_energy(const vorocl_diagram* diagram, double* en
 VOROCL_API vorocl_status vorocl_vertices(const vorocl_diagram* diagram, vorocl_point* points, size_t room,
                                          size_t* count);
 
-/// As vorocl::CellRow: by great circles areas are square kilometres, and centroids degrees.
+/// As vorocl::CellRow: by great circles areas are square kilometres, centroids degrees, distances kilometres.
 typedef struct vorocl_cell_row {
   uint32_t id;
   vorocl_point seed;
@@ -523,6 +523,7 @@ typedef struct vorocl_cell_row {
   vorocl_point centroid;
   int touches_border;
   uint32_t neighbours;
+  double largest_distance;
 } vorocl_cell_row;
 
 /// The cells of the seeds that are there, by id: the first `room` of them, and how many there are. With no

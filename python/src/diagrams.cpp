@@ -126,12 +126,6 @@ struct CellMeasures {
   const CellShape& shape;
   std::uint32_t perimeter, neighbours;
   Metric metric;
-
-  /// NaN of an empty cell.
-  double farthest() const {
-    if (sums.area == 0) return std::numeric_limits<double>::quiet_NaN();
-    return metric == Metric::euclidean ? std::sqrt(shape.largest_distance) : shape.largest_distance;
-  }
 };
 
 /// One cell, as CELL in vorocl/_objects.py says it: in pixels.
@@ -145,10 +139,11 @@ struct Row {
 Row row_of(const std::optional<Point>& seed, const CellMeasures& cell) {
   constexpr double none = std::numeric_limits<double>::quiet_NaN();
   const Point place = seed.value_or(Point{none, none, none}), centroid = cell.sums.centroid();
+  const double farthest = cell.shape.farthest(cell.metric);
   const CellShape box = cell.sums.area > 0 ? cell.shape : CellShape{0, 0, -1, -1, 0, false, 0, -1};
-  return {place.x,         place.y,        place.z,        centroid.x,      centroid.y,        centroid.z,
-          cell.farthest(), cell.sums.area, cell.perimeter, cell.neighbours, box.left,          box.top,
-          box.front,       box.right,      box.bottom,     box.back,        box.touches_border};
+  return {place.x,   place.y,        place.z,        centroid.x,      centroid.y, centroid.z,
+          farthest,  cell.sums.area, cell.perimeter, cell.neighbours, box.left,   box.top,
+          box.front, box.right,      box.bottom,     box.back,        box.touches_border};
 }
 
 /// The seeds that the labels name.
@@ -188,16 +183,8 @@ std::vector<GlobeRow> measure_globe(DiagramObject& diagram) {
   constexpr double none = std::numeric_limits<double>::quiet_NaN();
   std::vector<GlobeRow> rows(seeds_of(diagram).size(), {none, none, 0, none, none, none, 0, 0, false});
   for (const CellRow& cell : cell_table(diagram.diagram))
-    rows[cell.id] = {cell.seed.x, cell.seed.y, cell.area,       cell.centroid.x,    cell.centroid.y,
-                     none,        cell.pixels, cell.neighbours, cell.touches_border};
-  const std::vector<std::uint32_t> labels = diagram.diagram.read();
-  distance_field(diagram.diagram, diagram.distances);
-  const std::vector<float> distances = diagram.distances.read();
-  for (std::size_t pixel = 0; pixel < labels.size(); ++pixel) {
-    if (labels[pixel] >= rows.size()) continue;  // none
-    double& largest = rows[labels[pixel]].largest_distance;
-    largest = std::fmax(largest, static_cast<double>(distances[pixel]));
-  }
+    rows[cell.id] = {cell.seed.x,           cell.seed.y, cell.area,       cell.centroid.x,    cell.centroid.y,
+                     cell.largest_distance, cell.pixels, cell.neighbours, cell.touches_border};
   return rows;
 }
 

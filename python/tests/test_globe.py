@@ -91,6 +91,7 @@ def test_objects_know_the_globe():
         ({"periodic": (True, False)}, "periodic by themselves"),
         ({"bounds": (0, 0, 361, 90)}, "no longer than 360"),
         ({"bounds": (0, 0, 36, 91)}, "-90 to 90"),
+        ({"bounds": (170, -50, -170, 50)}, r"date line .*\(170.0, -50.0, 190.0, 50.0\)"),
     ],
 )
 def test_what_is_not_of_the_globe_is_refused(arguments, says):

@@ -54,9 +54,9 @@ vorocl_status vorocl_cell_table(const vorocl_diagram* diagram, vorocl_cell_row* 
     const std::vector<CellRow> found = cell_table(of(diagram));
     for (std::size_t i = 0; i < std::min(room, found.size()); ++i) {
       const CellRow& cell = found[i];
-      rows[i] = {cell.id,        to_c(cell.seed),     cell.pixels,
-                 cell.area,      to_c(cell.centroid), cell.touches_border ? 1 : 0,
-                 cell.neighbours};
+      rows[i] = {cell.id,         to_c(cell.seed),      cell.pixels,
+                 cell.area,       to_c(cell.centroid),  cell.touches_border ? 1 : 0,
+                 cell.neighbours, cell.largest_distance};
     }
     *count = found.size();
   });

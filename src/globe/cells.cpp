@@ -1,4 +1,5 @@
 // The cells of diagrams of great circles, which the host measures: rows have pixels of unequal areas.
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
@@ -16,6 +17,7 @@ constexpr double radians = 3.14159265358979323846 / 180;
 struct GlobeSum {
   std::uint32_t pixels = 0;
   double area = 0, x = 0, y = 0, z = 0;
+  float farthest = 0;
   bool touches_border = false;
 };
 
@@ -23,7 +25,8 @@ double length_of_pixel(const Axis& axis) {
   return (axis.to() - axis.from()) / static_cast<double>(axis.pixels());
 }
 
-std::vector<GlobeSum> sums_of(const MeasuredDiagram& of, const std::vector<std::uint32_t>& labels) {
+std::vector<GlobeSum> sums_of(const MeasuredDiagram& of, const std::vector<std::uint32_t>& labels,
+                              const std::vector<float>& distances) {
   const Window& window = of.window;
   const Axis &east = window.grid().x(), &north = window.grid().y();
   const auto width = static_cast<std::size_t>(window.width()),
@@ -59,6 +62,9 @@ std::vector<GlobeSum> sums_of(const MeasuredDiagram& of, const std::vector<std::
       sum.x += area * std::cos(middle) * (cosines[next] - cosines[x]);
       sum.y += area * std::cos(middle) * (sines[next] - sines[x]);
       sum.z += area * std::sin(middle) * pixels;
+      const auto at = distances.begin() + static_cast<std::ptrdiff_t>(y * width);
+      sum.farthest = std::max(sum.farthest, *std::max_element(at + static_cast<std::ptrdiff_t>(x),
+                                                              at + static_cast<std::ptrdiff_t>(next)));
       sum.touches_border = sum.touches_border || is_end || (ends && (x == 0 || next == width));
     }
   }
@@ -77,15 +83,17 @@ Point centroid_of(const GlobeSum& sum, double west) {
 }  // namespace
 
 std::vector<CellRow> cells_on_globe(const MeasuredDiagram& of, const std::vector<std::uint32_t>& labels,
+                                    const std::vector<float>& distances,
                                     const std::vector<std::uint32_t>& neighbours) {
-  const std::vector<GlobeSum> sums = sums_of(of, labels);
+  const std::vector<GlobeSum> sums = sums_of(of, labels, distances);
   const std::vector<std::optional<Point>> points = of.seeds->read_given();
   std::vector<CellRow> rows;
   for (std::uint32_t id = 0; id < points.size(); ++id) {
     if (!points[id]) continue;
     const GlobeSum& sum = sums[id];
     rows.push_back({id, *points[id], sum.pixels, sum.area * earth_radius * earth_radius,
-                    centroid_of(sum, of.window.grid().x().from()), sum.touches_border, neighbours[id]});
+                    centroid_of(sum, of.window.grid().x().from()), sum.touches_border, neighbours[id],
+                    sum.pixels > 0 ? sum.farthest : std::numeric_limits<double>::quiet_NaN()});
   }
   return rows;
 }

@@ -35,8 +35,10 @@ std::shared_ptr<const PointPlacement> place_on_globe(const Window& window, const
 
 Report exact_diagram_on_globe(Filling& filling, DiagramState& state);
 
-/// The cells of a diagram of great circles: all but their neighbours, of which there is a number for each id.
+/// The cells of a diagram of great circles, from the labels and the distances of its pixels; of neighbours
+/// there is a number for each id.
 std::vector<CellRow> cells_on_globe(const MeasuredDiagram& of, const std::vector<std::uint32_t>& labels,
+                                    const std::vector<float>& distances,
                                     const std::vector<std::uint32_t>& neighbours);
 
 }  // namespace vorocl

@@ -2,6 +2,7 @@
 #include "measures/measurement.hpp"
 #include "vorocl/adjacency.hpp"
 #include "vorocl/cells.hpp"
+#include "vorocl/fields.hpp"
 
 namespace vorocl {
 
@@ -24,7 +25,11 @@ std::vector<CellRow> cell_table(const Diagram& diagram) {
   AdjacencyResult pairs;
   adjacency(diagram, pairs);
   const std::vector<std::uint32_t> neighbours = pairs.read_neighbours();
-  if (of.metric == Metric::great_circle) return cells_on_globe(of, diagram.read(), neighbours);
+  if (of.metric == Metric::great_circle) {
+    Field<float> distances;
+    distance_field(diagram, distances);
+    return cells_on_globe(of, diagram.read(), distances.read(), neighbours);
+  }
   CellSumsResult sums_of_cells;
   CellShapesResult shapes_of_cells;
   cell_sums(diagram, sums_of_cells);
@@ -40,8 +45,9 @@ std::vector<CellRow> cell_table(const Diagram& diagram) {
   std::vector<CellRow> rows;
   for (std::uint32_t id = 0; id < points.size(); ++id) {
     if (!points[id]) continue;
-    rows.push_back({id, *points[id], sums[id].area, sums[id].area * area_of_pixel,
-                    point_in(window, sums[id].centroid()), shapes[id].touches_border, neighbours[id]});
+    const Point centroid = sums[id].centroid();
+    rows.push_back({id, *points[id], sums[id].area, sums[id].area * area_of_pixel, point_in(window, centroid),
+                    shapes[id].touches_border, neighbours[id], shapes[id].farthest(of.metric)});
   }
   return rows;
 }

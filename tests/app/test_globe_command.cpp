@@ -6,6 +6,7 @@
 #include <opencv2/imgcodecs.hpp>
 #include <random>
 
+#include "formats/npy.hpp"
 #include "formats/raster_files.hpp"
 #include "host_measures.hpp"
 #include "raw_images.hpp"
@@ -112,7 +113,14 @@ BOOST_AUTO_TEST_CASE(what_is_not_of_the_globe_is_refused) {
     refuses(folder, of_points + " " + option, usage, {option.substr(0, option.find(' ')), "great-circle"});
   refuses(folder, "render -o a.png --random 5 --size 8x8" + std::string(by), usage, {"--points"});
   refuses(folder, of_points + " --method jfa", usage, {"jfa", "great circles"});
-  refuses(folder, render + " --points far.csv", failure, {"point 1", "-90 to 90"});
+  refuses(folder, render + " --points far.csv", failure, {"far.csv:3", "-91", "no latitude"});
+  command::write_npy_points(command::OutputFile(folder / "far.npy"), {{1, 2}, {3, -91}});
+  refuses(folder, render + " --points far.npy", failure, {"far.npy", "point 1", "-90 to 90"});
+  refuses(folder, of_points + " --bounds=170,-50,-170,50", usage, {"date line", "170,-50,190,50"});
+  refuses(folder, of_points + " --bounds=1700,-50,-170,50", usage, {"X0 < X1 and Y0 < Y1\n"});
+  const std::string with_labels = of_points + " --labels l.tif --crs EPSG:";
+  refuses(folder, with_labels + "32632", usage, {"--crs EPSG:32632", "no degrees", "EPSG:4326"});
+  succeeds(folder, with_labels + "4326");
   refuses(folder, of_points + " --bounds 0,0,361,90", failure, {"no longer than 360"});
   refuses(folder, "cells --exact --points p.csv --cells c.csv" + std::string(by), usage, {"--metric"});
   refuses(folder,
@@ -121,5 +129,5 @@ BOOST_AUTO_TEST_CASE(what_is_not_of_the_globe_is_refused) {
   for (const std::string command :
        {"bench --random 5 --size 8x8", "tiles --random 5 --size 8x8 --labels l.npy",
         "compare l.npy --random 5", "simulate --random 5 --size 8x8 -o a.mp4"})
-    refuses(folder, command + by, usage, {"great-circle"});
+    refuses(folder, command + by, usage, {"great-circle", "of render and cells", "euclidean, manhattan"});
 }

@@ -285,6 +285,7 @@ static void test_globe(const vorocl_seeds* seeds, vorocl_diagram* diagram) {
   OK(vorocl_cell_table(diagram, rows, seed_count, &count));
   for (size_t i = 0; i < count; ++i) area += rows[i].area;
   CHECK(rows[0].id == 0 && rows[0].touches_border == 1 && rows[0].neighbours > 0 && rows[6].id == 7);
+  CHECK(rows[0].largest_distance > 100 && rows[0].largest_distance < 20100);
   CHECK(fabs(area / (radius * radius * width * radians * sin(height * radians)) - 1) < 1e-9);
   FAILS(vorocl_cell_table(diagram, NULL, 1, &count), VOROCL_NULL_ARGUMENT, "rows");
 }

@@ -55,11 +55,15 @@ void check_table(const Grid& grid, const std::vector<std::optional<Point>>& poin
     BOOST_TEST(found.touches_border == right.touches_border);
     BOOST_TEST(found.neighbours == right.neighbours);
     if (right.area == 0) {
+      BOOST_TEST(std::isnan(found.largest_distance));
       BOOST_TEST((std::isnan(found.centroid.x) && std::isnan(found.centroid.y)));
     } else {
       const auto mean = [&](const Axis& axis, std::int64_t sum) {
         return coordinate_along(axis, static_cast<double>(sum) / right.area + 0.5);
       };
+      const double distance = static_cast<double>(right.farthest);
+      BOOST_TEST(found.largest_distance == (metric == Metric::euclidean ? std::sqrt(distance) : distance),
+                 close);
       BOOST_TEST(found.centroid.x == mean(grid.x(), right.sum.x), close);
       BOOST_TEST(found.centroid.y == mean(grid.y(), right.sum.y), close);
       BOOST_TEST(found.centroid.z == mean(grid.z(), right.sum.z), close);

@@ -167,12 +167,16 @@ BOOST_AUTO_TEST_CASE(cells_have_square_kilometres) {
   Diagram diagram(test_device(), grid);
   exact_diagram(Seeds(test_device(), grid, points), diagram, {Metric::great_circle});
   const std::vector<std::uint32_t> labels = diagram.read();
-  std::vector<double> areas(points.size());
+  std::vector<double> areas(points.size()), farthest(points.size());
+  Field<float> distances;
+  distance_field(diagram, distances);
+  const std::vector<float> away = distances.read();
   std::set<std::pair<std::uint32_t, std::uint32_t>> pairs;
   for (std::size_t y = 0; y < 36; ++y) {
     for (std::size_t x = 0; x < 72; ++x) {
       const std::uint32_t own = labels[y * 72 + x];
       const double north = 90 - 5 * static_cast<double>(y);
+      farthest[own] = std::max(farthest[own], static_cast<double>(away[y * 72 + x]));
       areas[own] += static_cast<double>(radius * radius * 5 * radians *
                                         (std::sin(north * radians) - std::sin((north - 5) * radians)));
       for (const std::uint32_t other :
@@ -187,6 +191,8 @@ BOOST_AUTO_TEST_CASE(cells_have_square_kilometres) {
     BOOST_TEST(cell.seed.x == points[cell.id].x);
     BOOST_TEST(!cell.touches_border);
     if (cell.pixels > 0) BOOST_TEST(way(cell.centroid, cell.seed) < 6000);
+    BOOST_TEST(
+        (cell.pixels > 0 ? cell.largest_distance == farthest[cell.id] : std::isnan(cell.largest_distance)));
     sum += cell.area;
     neighbours += cell.neighbours;
   }

@@ -354,6 +354,8 @@ bool CsvReader::next() {
     }
     const auto at = [&](std::size_t index) { return coordinate(line, index, options_.decimal_comma); };
     point_ = {at(indices_->x), at(indices_->y), indices_->z ? at(*indices_->z) : 0};
+    if (options_.on_globe && std::abs(point_.y) > 90)
+      throw line.error(field(line, indices_->y) + " is no latitude, from -90 to 90 degrees");
     if (indices_->id) id_ = parse_number<std::uint32_t>(field(line, *indices_->id)).value_or(no_label);
     return has_points_ = true;
   }

@@ -46,6 +46,7 @@ struct CsvOptions {
   bool decimal_comma = false;          ///< of numbers; then fields have other separators
   std::vector<std::string> keep = {};  ///< columns whose text is kept; {"all"}: every one that has a name
   bool reads_ids = true;               ///< of the column id
+  bool on_globe = false;               ///< points are longitudes and latitudes
 };
 
 /// The columns, from 0.
@@ -67,7 +68,8 @@ class CsvReader {
 
   /// Goes to the next point; false at the end of the file. Throws Error that names file, line and text for a
   /// line that cannot be read, has more than a mebibyte or more fields than the first one, an infinite
-  /// coordinate and a column that is not there, and at the end if there was no point at all.
+  /// coordinate, a latitude beyond a pole and a column that is not there, and at the end if there was no
+  /// point at all.
   bool next();
 
   /// Coordinates that are absent (empty, NA, NaN, null) are NaN; z is that of a volume, or 0.

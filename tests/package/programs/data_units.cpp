@@ -1,4 +1,5 @@
-// Cities in degrees, on a map whose columns go around the world and whose rows begin in the north.
+// Cities in degrees, on a map whose columns go around the world and whose rows begin in the north: the
+// nearest on the globe.
 #include <iostream>
 #include <vorocl/vorocl.hpp>
 
@@ -11,7 +12,7 @@ int main() {
                          vorocl::Axis(720, -90, 90).reversed().closed());
   const vorocl::Device device = vorocl::Device::select();
   vorocl::Diagram diagram(device, map);
-  vorocl::exact_diagram(vorocl::Seeds(device, map, cities), diagram);
+  vorocl::exact_diagram(vorocl::Seeds(device, map, cities), diagram, {vorocl::Metric::great_circle});
 
   const std::vector<std::uint32_t> labels = diagram.read();
   for (const vorocl::Point& at : std::vector<vorocl::Point>{{179, 21}, {-179, -35}, {-95, 90}}) {

@@ -234,7 +234,7 @@ void add_cells(CommandLine& line) {
     options->seeds.on_globe = options->method_options.metric == Metric::great_circle;
     std::vector<std::string> paths;
     for (const FileRequest& request : options->requests()) paths.push_back(request.path);
-    check_crs(options->seeds.crs, paths);
+    check_crs(options->seeds, paths);
     if (options->exact) return run_exact(command, *options);
     if (options->is_volume()) {
       if (command.has("--border")) refuse_in_volumes("--border");

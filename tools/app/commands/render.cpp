@@ -194,7 +194,7 @@ void add_render(CommandLine& line) {
     if (options->max_distance && !options->waves_pattern.empty()) {
       throw UsageError("--max-distance is for whole diagrams, without --waves");
     }
-    check_crs(options->seeds.crs, {options->labels.path});
+    check_crs(options->seeds, {options->labels.path});
     snap_for(options->method, options->seeds);
     options->is_volume() ? prepare_volume(command, *options) : prepare_plane(*options);
     run(*options);

@@ -7,15 +7,25 @@
 namespace vorocl::command {
 
 Option add_metric_option(Command& command, Metric& metric, Globe globe) {
+  constexpr const char* of_globe = "great-circle";
   Choices<Metric> metrics = {{"euclidean", Metric::euclidean}, {"manhattan", Metric::manhattan}};
   std::string about = "Distance";
   if (globe == Globe::yes) {
-    metrics.emplace_back("great-circle", Metric::great_circle);
+    metrics.emplace_back(of_globe, Metric::great_circle);
     about +=
         "; great-circle: on the globe, of longitudes and latitudes in degrees, north up unless --y-down, in "
         "kilometres";
   }
-  return command.add_choice("--metric", metric, metrics, about).default_text(to_string(metric));
+  const auto parse = [metrics, globe](const std::string& text) {
+    if (globe == Globe::no && text == of_globe) {
+      throw Error("great-circle, the distance on the globe, is of render and cells; here there are " +
+                  names_of(metrics));
+    }
+    return choose(metrics, text);
+  };
+  return command.add_parsed("--metric", metric, parse, about + ": " + names_of(metrics))
+      .value_name("NAME")
+      .default_text(to_string(metric));
 }
 
 Option add_device_option(Command& command, std::string& request) {

@@ -35,8 +35,9 @@ void add_snap_option(Command& command, SeedOptions& options, const std::string& 
 /// Adds --crs, for the subcommands that have files of where points lie in the world.
 Option add_crs_option(Command& command, std::optional<Crs>& crs, const std::string& about);
 
-/// Throws UsageError if there is a --crs and no file that says it: .tif, or GeoJSON.
-void check_crs(const std::optional<Crs>& crs, const std::vector<std::string>& paths);
+/// Throws UsageError if there is a --crs and no file that says it (.tif, or GeoJSON), or for one without
+/// degrees on the globe.
+void check_crs(const SeedOptions& options, const std::vector<std::string>& paths);
 
 /// Adds --keep, for the subcommands that have tables of cells of points.
 void add_keep_option(Command& command, SeedOptions& options);

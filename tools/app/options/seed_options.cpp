@@ -238,13 +238,20 @@ Option add_crs_option(Command& command, std::optional<Crs>& crs, const std::stri
       .value_name("EPSG:N");
 }
 
-void check_crs(const std::optional<Crs>& crs, const std::vector<std::string>& paths) {
+void check_crs(const SeedOptions& options, const std::vector<std::string>& paths) {
+  const std::optional<Crs>& crs = options.crs;
   const auto says_it = [](const std::string& path) {
     const std::string extension = extension_of(path);
     return extension == ".tif" || extension == ".tiff" || extension == ".geojson" || extension == ".json";
   };
   if (crs && std::none_of(paths.begin(), paths.end(), says_it))
     throw UsageError("--crs is for .tif files of labels and distances, and for polygons as .geojson");
+  if (crs && options.on_globe && !crs->is_geographic) {
+    throw UsageError(
+        fmt::format("--crs EPSG:{} ({}) has no degrees, which --metric great-circle takes; longitudes and "
+                    "latitudes have one such as EPSG:4326",
+                    crs->code, crs->name));
+  }
 }
 
 void add_keep_option(Command& command, SeedOptions& options) {

@@ -175,12 +175,6 @@ const std::vector<vorocl::CellRow>& Measures::on_globe() {
   return once(on_globe_, [&] {
     std::vector<vorocl::CellRow> cells(pixels().size());
     for (const vorocl::CellRow& cell : cell_table(diagram())) cells[cell.id] = cell;
-    farthest_on_globe_.assign(cells.size(), 0);
-    for (std::size_t pixel = 0; pixel < labels().size(); ++pixel) {
-      if (labels()[pixel] >= cells.size()) continue;  // none
-      double& farthest = farthest_on_globe_[labels()[pixel]];
-      farthest = std::max(farthest, static_cast<double>(distances()[pixel]));
-    }
     return cells;
   });
 }

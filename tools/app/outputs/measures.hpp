@@ -99,9 +99,7 @@ class Measures {
 
   /// How far the farthest pixel of a cell is from its seed.
   double largest_distance(std::size_t label) {
-    if (is_on_globe()) return farthest_on_globe_.at(label);
-    const double distance = shapes()[label].largest_distance;
-    return metric_ == Metric::euclidean ? std::sqrt(distance) : distance;
+    return is_on_globe() ? on_globe()[label].largest_distance : shapes()[label].farthest(metric_);
   }
 
   /// The cells that share a pixel edge with one, and how many edges that is.
@@ -173,7 +171,6 @@ class Measures {
   std::optional<std::vector<CellPair>> pairs_;
   std::optional<CellStatistics> statistics_;
   std::optional<std::vector<vorocl::CellRow>> on_globe_;
-  std::vector<double> farthest_on_globe_;
 };
 
 /// Throws UsageError for a distance where lengths have no scale in the data.

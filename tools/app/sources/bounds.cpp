@@ -45,11 +45,16 @@ Bounds parse_bounds(const std::string& text, bool of_volumes) {
   for (std::size_t axis = 0; is_good && axis < axes; ++axis) is_good = values[axis] < values[axis + axes];
   if (is_good && has_z) return {values[0], values[1], values[3], values[4], values[2], values[5]};
   if (is_good) return {values[0], values[1], values[2], values[3]};
+  const bool crosses = values.size() == 4 && parts.size() == 4 && values[2] < values[0] && values[0] <= 180 &&
+                       values[2] >= -180 && values[1] < values[3];
   throw Error(
       "\"" + text + "\" must be " +
       (of_volumes && parts.size() != 4
            ? "X0,Y0,X1,Y1 or, of a volume, X0,Y0,Z0,X1,Y1,Z1: numbers with X0 < X1, Y0 < Y1 and Z0 < Z1"
-           : "X0,Y0,X1,Y1: four numbers with X0 < X1 and Y0 < Y1"));
+           : "X0,Y0,X1,Y1: four numbers with X0 < X1 and Y0 < Y1") +
+      (crosses ? fmt::format("; across the date line longitudes go on, as {},{},{},{}", values[0], values[1],
+                             values[2] + 360, values[3])
+               : ""));
 }
 
 Axis data_axis(std::int64_t pixels, double low, double high, bool is_periodic, bool is_closed) {

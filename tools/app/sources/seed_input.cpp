@@ -78,6 +78,9 @@ Input globe_from_points(const SeedOptions& options) {
     const Axis y = data_axis(picture.height(), bounds.y0, bounds.y1, false, true);
     const Grid grid(x, options.y_down ? y : y.reversed());
     for (Point& point : read.points) {  // so that those beyond 180 degrees are drawn where they are
+      if (std::abs(point.y) > 90)
+        throw BadPoint(static_cast<std::size_t>(&point - read.points.data()), point,
+                       "is no place on the globe: y is its latitude, from -90 to 90 degrees");
       const double shown = point.x - 360 * std::floor((point.x - bounds.x0) / 360);
       if (shown <= bounds.x1) point.x = shown;
     }

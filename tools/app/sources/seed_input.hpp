@@ -56,7 +56,7 @@ struct SeedOptions {
   Grid grid() const { return {size->width(), size->height(), size->depth(), periodic.value_or(Axes::none)}; }
 
   const std::string& read_column() const { return value_column.empty() ? weight_column : value_column; }
-  CsvOptions csv() const { return {columns, read_column(), decimal_comma, keep}; }
+  CsvOptions csv() const { return {columns, read_column(), decimal_comma, keep, true, on_globe}; }
 
   /// What becomes of seeds within their pixels.
   Snap snapping() const {
