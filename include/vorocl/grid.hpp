@@ -212,6 +212,7 @@ class VOROCL_API Grid {
   double tilt_xz() const { return tilt_xz_; }
   double tilt_yz() const { return tilt_yz_; }
   bool is_tilted() const { return tilt_ != 0 || tilt_xz_ != 0 || tilt_yz_ != 0; }
+  bool is_tilted_plane() const { return is_tilted() && !is_volume(); }
 
   /// The tilt as diagrams have it, in 1/4096 of a pixel: so far along x lies what repeats, height() rows
   /// further down. Rounded once, so that images are sums of what is here and of whole periods.
@@ -303,7 +304,7 @@ class VOROCL_API Window {
   /// none of them. Of a tilted grid x and y or none: if the window has all rows of the grid, from the first
   /// one on, and all columns.
   Axes periodic() const {
-    if (grid_.is_tilted() && !grid_.is_volume()) {
+    if (grid_.is_tilted_plane()) {
       const bool shows_all = width_ == grid_.width() && height_ == grid_.height() && y_ == 0;
       return shows_all ? Axes::xy : Axes::none;
     }

@@ -211,7 +211,7 @@ Grid Grid::tilted(double tilt, double xz, double yz) const {
   grid.tilt_ = tilt;
   grid.tilt_xz_ = xz;
   grid.tilt_yz_ = yz;
-  if (grid.is_tilted() && !is_volume()) {
+  if (grid.is_tilted_plane()) {
     refuse_volume(*this, "a tilt");
     if (xz != 0 || yz != 0) throw Error("a plane is tilted by xy alone; xz and yz are tilts of volumes");
     const double period = x_.to() - x_.from(), reduced = std::remainder(tilt, period);
@@ -237,7 +237,7 @@ Window::Window(const Grid& grid, std::int64_t x, std::int64_t y, std::int64_t z,
                std::int64_t height, std::int64_t depth)
     : grid_(grid),
       x_(checked_begin(grid.x(), "x", x, width)),
-      y_(checked_begin(grid.y(), "y", y, height, grid.is_tilted() && !grid.is_volume())),
+      y_(checked_begin(grid.y(), "y", y, height, grid.is_tilted_plane())),
       z_(checked_begin(grid.z(), "z", z, depth)),
       width_(width),
       height_(height),

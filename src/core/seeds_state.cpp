@@ -54,7 +54,7 @@ std::uint64_t next_number() {
 /// The pixels of a diagram of all of a grid, as far as kernels go round its periods.
 PixelGrid whole_of(const Grid& grid) {
   const PixelGrid pixels{Window(grid)};
-  return grid.is_tilted() && !grid.is_volume() ? pixels.without_periods() : pixels;
+  return grid.is_tilted_plane() ? pixels.without_periods() : pixels;
 }
 
 /// Whether a kernel places points on a grid, as far as all of them lie in it: one that a diagram shows whole,
