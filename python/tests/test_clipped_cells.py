@@ -81,6 +81,17 @@ def test_cells_on_a_coast_with_lakes_and_islands(seed, count):
     np.testing.assert_array_equal(np.bincount(ends, minlength=count), found.cells["neighbours"])
 
 
+def test_weighted_cells_and_absent_points_are_clipped_too():
+    region, points = coast(4), random_points(4, 600)
+    points[7], points[9] = np.nan, points[8]
+    weights = np.random.default_rng(4).uniform(0, 0.3, 600)
+    whole = vorocl.exact_cells(points, SQUARE, weights=weights)
+    assert (whole.cells["area"] == 0).sum() > 2
+    found = whole.clip(region)
+    check_sums(found, region)
+    np.testing.assert_allclose(found.cells["area"], shapely.area(shapely.intersection(whole.to_shapely(), region)), atol=1e-12)
+
+
 def test_catchments_of_a_country_s_cities():
     country = geopandas.read_file(SAMPLES / "italy.geojson")
     region = country.union_all()
