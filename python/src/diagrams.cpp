@@ -141,8 +141,8 @@ Row row_of(const std::optional<Point>& seed, const CellMeasures& cell) {
   const Point place = seed.value_or(Point{none, none, none}), centroid = cell.sums.centroid();
   const double farthest = cell.shape.farthest(cell.metric);
   const CellShape box = cell.sums.area > 0 ? cell.shape : CellShape{0, 0, -1, -1, 0, false, 0, -1};
-  return {place.x,   place.y,        place.z,        centroid.x,      centroid.y, centroid.z,
-          farthest,  cell.sums.area, cell.perimeter, cell.neighbours, box.left,   box.top,
+  return {place.x,   place.y,        place.z,        centroid.x,      centroid.y,        centroid.z,
+          farthest,  cell.sums.area, cell.perimeter, cell.neighbours, box.left,          box.top,
           box.front, box.right,      box.bottom,     box.back,        box.touches_border};
 }
 
