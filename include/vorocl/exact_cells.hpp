@@ -18,13 +18,6 @@ namespace vorocl {
 
 struct ExactCellsState;
 
-struct ExactCellsOptions {
-  /// By seed, in the units of the data squared; none: all have the same. Cells are those of the power
-  /// diagram (Laguerre, radical): a place belongs to the seed of the least |place - point|^2 - weight, so
-  /// spheres have their squared radii as weights. Only differences count. A seed may lie outside its cell.
-  std::vector<double> weights = {};
-};
-
 /// What exact_cells() knows of a cell, in the units of the data. An empty cell has the area 0 and a centroid
 /// of NaNs: that of an absent seed, of a seed that lies where one with a lower id does, of one outside the
 /// rectangle whose cell does not reach into it, and of one whose weight is too small beside those around it.
@@ -172,8 +165,9 @@ class VOROCL_API ExactCellsResult {
 /// to 2^-28 of the longer side, in a volume to 2^-38 of the longest. A box that is so flat beside its tilts
 /// that more than 65,535 of its images may touch a cell is an Error.
 ///
-/// Weights are rounded to steps squared, or to 2^-53 of how far the greatest lies above them. Of weighted
-/// points at one place the one with the greatest weight has the cell.
+/// Of points with weights (Points::weighted()) the cells are those of the power diagram, and a seed may lie
+/// outside its cell. Weights are rounded to steps squared, or to 2^-53 of how far the greatest lies above
+/// them. Of weighted points at one place the one with the greatest weight has the cell.
 ///
 /// Each cell starts as the rectangle and is cut by bisectors, with the seeds that are near in a tree first,
 /// until no seed is nearer to one of its vertices than its own: the security radius of Ray, Sokolov, Lefebvre
@@ -183,9 +177,7 @@ class VOROCL_API ExactCellsResult {
 ///
 /// Enqueues and returns, after a wait where only the device has the points. Throws Error if the device has no
 /// doubles (cl_khr_fp64) or too little memory, if the rectangle has no extent along an axis, if the grid has
-/// an axis that is spaced, or if there are not as many weights as seeds, or one of a seed that is there is
-/// not finite.
-VOROCL_API Report exact_cells(const Seeds& seeds, ExactCellsResult& result,
-                              const ExactCellsOptions& options = {});
+/// an axis that is spaced.
+VOROCL_API Report exact_cells(const Seeds& seeds, ExactCellsResult& result);
 
 }  // namespace vorocl

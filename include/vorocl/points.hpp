@@ -44,7 +44,14 @@ class VOROCL_API Points {
   /// bytes.
   Points marked(const std::uint8_t* present) const;
 
+  /// The same points, weighted: the labels of an exact diagram are those of its power diagram (Laguerre,
+  /// radical), and so are exact cells. A place belongs to the seed of the least |place - point|^2 - weight,
+  /// so spheres have their squared radii as weights. Weights are in the units of the data squared; only
+  /// differences count. `weights` has size() numbers; that of an absent point is not looked at.
+  Points weighted(const double* weights) const;
+
   std::size_t size() const { return size_; }
+  const double* weights() const { return weights_; }  ///< null if there are none
   bool is_present(std::size_t i) const {
     return (present_ == nullptr || present_[i] != 0) &&
            (kind_ != Kind::optional || static_cast<const std::optional<Point>*>(first_)[i].has_value());
@@ -81,6 +88,7 @@ class VOROCL_API Points {
   std::ptrdiff_t stride_ = sizeof(Point);
   Kind kind_;
   const std::uint8_t* present_ = nullptr;
+  const double* weights_ = nullptr;
 };
 
 /// What a buffer of points holds for each: two numbers or, with a z, three, without gaps.

@@ -47,6 +47,14 @@ struct SeedsOptions {
 /// random(), from_mask() and random_step() make whole pixels; points that seeds of random() and from_mask()
 /// move to later are taken as with Snap::none.
 ///
+/// Points with weights (Points::weighted()) are those of power diagrams. Exact diagrams and exact cells know
+/// them, of points on the host, by the Euclidean metric. Diagrams need Snap::none and pixels that are squares
+/// or cubes in the units of the data, to 1 %, and round weights to 2^-11 squared pixels. They may differ by
+/// at most 2^20 squared pixels, unless the grid is so small that a seed that lies farther behind owns no
+/// pixel. Where all are the same they are none. Seeds that own no pixel are usual there, and need not lie in
+/// their cells; measures take distances as without weights. Motions at random, relaxation, tiles and methods
+/// that flood throw Error.
+///
 /// Points are in the units of the data; along periodic axes they wrap. Exact diagrams and the measures know
 /// seeds outside a diagram's window, and every window of a grid; flooding methods need a window that is the
 /// whole grid, which is not tilted, and holds all seeds, and periods of at most 32,000 pixels.
@@ -110,7 +118,8 @@ class VOROCL_API Seeds {
   Seeds clone() const;
 
   /// Moves the seeds to new points: a new frame. The number of seeds may change: ids past the end are absent.
-  /// Checks as the constructor. If it throws, the seeds are where they were.
+  /// Checks as the constructor. Seeds with weights go to points with weights. If it throws, the seeds are
+  /// where they were.
   void move_to(const Points& points);
   void move_to(std::initializer_list<Point> points);
   void move_to(const PointBuffer& points);

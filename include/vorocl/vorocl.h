@@ -257,6 +257,14 @@ VOROCL_API vorocl_status vorocl_seeds_from_points(const vorocl_device* device, v
                                                   size_t count, vorocl_outside outside, vorocl_snap snap,
                                                   vorocl_seeds** seeds);
 
+/// The same of `count` points with as many weights: see vorocl::Points::weighted(). Exact diagrams and exact
+/// cells know them.
+VOROCL_API vorocl_status vorocl_seeds_from_weighted_points(const vorocl_device* device, vorocl_grid grid,
+                                                           const vorocl_point* points, const double* weights,
+                                                           const uint8_t* present, size_t count,
+                                                           vorocl_outside outside, vorocl_snap snap,
+                                                           vorocl_seeds** seeds);
+
 /// What a buffer of points holds for each, without gaps: two floats or doubles or, with a z, three. A
 /// vorocl_point is VOROCL_DOUBLES_XYZ.
 typedef int vorocl_point_format;
@@ -303,7 +311,13 @@ VOROCL_API vorocl_status vorocl_seeds_displacement(const vorocl_seeds* seeds, do
 VOROCL_API vorocl_status vorocl_seeds_move_to(vorocl_seeds* seeds, const vorocl_point* points,
                                               const uint8_t* present, size_t count);
 
-/// As above, on another grid.
+/// The same of points with weights, on `grid` or, if that is NULL, where the seeds are.
+VOROCL_API vorocl_status vorocl_seeds_move_to_weighted_points(vorocl_seeds* seeds, const vorocl_grid* grid,
+                                                              const vorocl_point* points,
+                                                              const double* weights, const uint8_t* present,
+                                                              size_t count);
+
+/// As vorocl_seeds_move_to(), on another grid.
 VOROCL_API vorocl_status vorocl_seeds_move_to_grid(vorocl_seeds* seeds, vorocl_grid grid,
                                                    const vorocl_point* points, const uint8_t* present,
                                                    size_t count);
@@ -663,10 +677,6 @@ VOROCL_API void vorocl_exact_cells_free(vorocl_exact_cells* cells);
 /// Cuts the rectangle of the seeds' grid, or the box of a volume, into their cells, without a diagram.
 /// Enqueues and returns. VOROCL_DEVICE_ERROR if the device has no doubles.
 VOROCL_API vorocl_status vorocl_exact_cells_cut(vorocl_exact_cells* cells, const vorocl_seeds* seeds);
-
-/// The same of weighted seeds, which have one weight each: see vorocl::ExactCellsOptions.
-VOROCL_API vorocl_status vorocl_exact_cells_cut_weighted(vorocl_exact_cells* cells, const vorocl_seeds* seeds,
-                                                         const double* weights, size_t count);
 
 /// The cells, one per seed; 0 if it is empty.
 VOROCL_API vorocl_status vorocl_exact_cells_count(const vorocl_exact_cells* cells, size_t* count);

@@ -34,18 +34,26 @@ static inline uint bin_of(const bins_t* bins, int4 place) {
 typedef struct {
   global int *x, *y, *z;
   global uint* ids;
+  global int* lags;  // if there are weights
 } places_of_bins_t;
 
-static inline void put(const places_of_bins_t* p, uint at, int4 place, uint id) {
+// `lags`: by id.
+static inline void put(const places_of_bins_t* p, uint at, int4 place, uint id, global const int* lags) {
   p->x[at] = place.x * SPACING_X, p->y[at] = place.y * SPACING_Y, p->ids[at] = id;
   if (IS_VOLUME) p->z[at] = place.z * SPACING_Z;
+  if (IS_WEIGHTED) p->lags[at] = lags[id];
+}
+static inline void move_place(const places_of_bins_t* p, uint at, uint to) {
+  p->x[to] = p->x[at], p->y[to] = p->y[at], p->ids[to] = p->ids[at];
+  if (IS_VOLUME) p->z[to] = p->z[at];
+  if (IS_WEIGHTED) p->lags[to] = p->lags[at];
 }
 
 // --- seeds at one place ---
 //
-// Only that of the lowest id can win, and lists could drop none of the others. In bins of many places only
-// the lowest id of a place stays: a table holds where a place of some hash stands. (Where it has another one
-// of that hash, repeats stay, which costs time alone.)
+// Only that of the lowest id can win (of the least lag, where there are weights), and lists could drop none
+// of the others. In bins of many places only that one stays: a table holds where a place of some hash stands.
+// (Where it has another one of that hash, repeats stay, which costs time alone.)
 
 #ifndef MANY_OF_BIN
 #define MANY_OF_BIN 16
@@ -53,6 +61,11 @@ static inline void put(const places_of_bins_t* p, uint at, int4 place, uint id) 
 #define TABLE_BITS 11
 #define NOT_SEEN 0xffffffffu
 
+// Whether of two seeds at one place the first one wins.
+static inline bool is_better(const places_of_bins_t* p, uint at, uint than) {
+  if (IS_WEIGHTED && p->lags[at] != p->lags[than]) return p->lags[at] < p->lags[than];
+  return p->ids[at] < p->ids[than];
+}
 static inline bool is_at(const places_of_bins_t* p, uint at, int x, int y, int z) {
   if (IS_VOLUME && p->z[at] != z) return false;
   return p->x[at] == x && p->y[at] == y;
@@ -66,13 +79,12 @@ static inline uint move_first_of_places(const places_of_bins_t* p, local uint* s
   for (uint at = begin; at < end; ++at) {
     const int x = p->x[at], y = p->y[at], z = IS_VOLUME ? p->z[at] : 0;
     const uint hash = ((uint)x * 0x9e3779b1u ^ (uint)y * 0x85ebca77u ^ (uint)z * 0xc2b2ae3du) >> (32 - bits);
-    const uint first = seen[hash], id = p->ids[at];
+    const uint first = seen[hash];
     if (first != NOT_SEEN && is_at(p, first, x, y, z)) {
-      p->ids[first] = min(p->ids[first], id);
+      if (is_better(p, at, first)) move_place(p, at, first);
       continue;
     }
-    p->x[to] = x, p->y[to] = y, p->ids[to] = id;
-    if (IS_VOLUME) p->z[to] = z;
+    move_place(p, at, to);
     seen[hash] = to++;
   }
   return to;
@@ -89,10 +101,7 @@ static inline void drop_repeats_of_row(const places_of_bins_t* p, global uint* s
     } else if (to == begin) {
       to = end;
     } else {
-      for (uint at = begin; at < end; ++at, ++to) {
-        p->x[to] = p->x[at], p->y[to] = p->y[at], p->ids[to] = p->ids[at];
-        if (IS_VOLUME) p->z[to] = p->z[at];
-      }
+      for (uint at = begin; at < end; ++at, ++to) move_place(p, at, to);
     }
     starts[i] = to;
     begin = end;

@@ -5,7 +5,7 @@
 
 #include "exact/walk.cl"
 
-// From a centre to the nearest image of a place.
+// From a centre to the nearest image of a place; w: its lag, in units squared.
 static inline float to_nearest_image(int way, int size, int spacing, int periodic) {
   return (float)shorter_way(way, size * ONE * spacing, periodic);
 }
@@ -14,7 +14,7 @@ static inline float4 way_to(const scene_t* scene, uint at, int4 centre) {
   const float y = to_nearest_image(scene->y[at] - centre.y, scene->size.y, SPACING_Y, PERIODIC_Y);
   const float z =
       IS_VOLUME ? to_nearest_image(scene->z[at] - centre.z, scene->size.z, SPACING_Z, PERIODIC_Z) : 0;
-  return (float4)(x, y, z, 0);
+  return (float4)(x, y, z, IS_WEIGHTED ? (float)scene->lags[at] * LAG_UNIT : 0);
 }
 
 // Finds the place of a walk that is nearest to a centre, of at most so many of each range; false if there is
@@ -108,7 +108,7 @@ NOINLINE static bool gather(const scene_t* scene, box_t box, float4 place, gathe
 // --- in integers, pixel by pixel ---
 
 typedef struct {
-  ulong distance;  // squared if Euclidean
+  ulong distance;  // squared if Euclidean, and the lag
   uint at;
 } winner_t;
 
@@ -119,7 +119,10 @@ static inline void compare_eight(const scene_t* scene, const places8_t* p, uint8
   const long8 distance = convert_long8(absolute(p->x)) + convert_long8(absolute(p->y));
 #else
   const long8 x = convert_long8(p->x), y = convert_long8(p->y), z = convert_long8(p->z);
-  const long8 distance = IS_VOLUME ? x * x + y * y + z * z : x * x + y * y;
+  long8 distance = IS_VOLUME ? x * x + y * y + z * z : x * x + y * y;
+#if IS_WEIGHTED
+  distance += convert_long8(p->lag) * LAG_UNIT;
+#endif
 #endif
   if (!any(distance <= (long8)(long)best->distance)) return;
   long lane[8];
@@ -180,7 +183,7 @@ static inline long distance_to(const scene_t* scene, int4 centre, uint at) {
 #else
   const long z =
       IS_VOLUME ? shorter_way(scene->z[at] - centre.z, scene->size.z * ONE * SPACING_Z, PERIODIC_Z) : 0;
-  return x * x + y * y + z * z;
+  return x * x + y * y + z * z + (IS_WEIGHTED ? (long)scene->lags[at] * LAG_UNIT : 0);
 #endif
 }
 static inline bool is_nearer(const scene_t* scene, int x, int y, int z, uint at, uint than) {

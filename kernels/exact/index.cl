@@ -56,12 +56,12 @@ kernel void sort_chunks(global const given_t* restrict given, global const uint*
 
 // A work-group of one item has a bucket.
 kernel void sort_buckets(global const int4* restrict sorted, int4 bits, int4 size, uint shift,
-                         global const uint* restrict ends, global uint* restrict starts,
-                         global int* restrict xs, global int* restrict ys, global int* restrict zs,
-                         global uint* restrict ids) {
+                         global const uint* restrict ends, global const int* restrict lags_of_seeds,
+                         global uint* restrict starts, global int* restrict xs, global int* restrict ys,
+                         global int* restrict zs, global uint* restrict ids, global int* restrict lags) {
   local uint seen[1 << TABLE_BITS];
   const bins_t bins = bins_of(bits, size);
-  const places_of_bins_t places = {xs, ys, zs, ids};
+  const places_of_bins_t places = {xs, ys, zs, ids, lags};
   const uint bucket = (uint)get_global_id(0), rows = (uint)(bins.rows * bins.slices),
              each = (uint)bins.columns + 1;
   const uint first = bucket << shift, last = min((bucket + 1) << shift, rows);
@@ -84,7 +84,7 @@ kernel void sort_buckets(global const int4* restrict sorted, int4 bits, int4 siz
   }
   for (uint i = begin; i < end; ++i) {
     const int4 place = sorted[i];
-    put(&places, next[bin_of(&bins, place)]++, place, (uint)place.w);
+    put(&places, next[bin_of(&bins, place)]++, place, (uint)place.w, lags_of_seeds);
   }
   if (most <= MANY_OF_BIN) return;
   for (uint row = first; row < last; ++row)

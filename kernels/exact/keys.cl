@@ -3,10 +3,10 @@
 //
 // KEYS. With the origin at a pixel centre, a place c in units of 2^-FRACTION_BITS and a pixel p in whole
 // units of the spacing, |c - p|^2 less |p|^2, which is the same for all places, is |c|^2 - 2^(FRACTION_BITS +
-// 1) p.c. So the low FRACTION_BITS + 1 bits are those of |c|^2 at every pixel. They go into the RANK of a
-// place: its number in the order of (these bits, z, y, x, id). A key is the other bits, and below them the
-// rank. By the Manhattan metric a key is the distance and the rank. All are less those of the list's first
-// place.
+// 1) p.c, and lags come on top. So the low FRACTION_BITS + 1 bits are those of |c|^2 at every pixel. They go
+// into the RANK of a place: its number in the order of (these bits, z, y, x, id). A key is the other bits,
+// and below them the rank. By the Manhattan metric a key is the distance and the rank. All are less those of
+// the list's first place.
 
 #ifndef VOROCL_EXACT_KEYS
 #define VOROCL_EXACT_KEYS
@@ -265,6 +265,7 @@ static inline float spread_of_keys(const list_t* list, int count, box_t b) {
 #if IS_VOLUME
     lead = fma(fabs(convert_float8(p.z - list->z[0])), fabs(f.z + first.z) + reach.z, lead);
 #endif
+    if (IS_WEIGHTED) lead += lead_of_lags(list, k, 0).terms;
 #endif
     most = fmax(most, select(lead, (float8)0, EIGHT + k >= count));
   }
@@ -272,8 +273,8 @@ static inline float spread_of_keys(const list_t* list, int count, box_t b) {
 }
 #define MOST_SPREAD 0x1.fp30f
 
-// |c|^2 without 64 bits, from the origin, next to a box's centre: c is whole * 2^FRACTION_BITS + rest along
-// each axis.
+// |c|^2, and the lag, without 64 bits, from the origin, next to a box's centre: c is whole * 2^FRACTION_BITS
+// + rest along each axis.
 typedef struct {
   uint8 high, low;
 } squares_t;
@@ -288,6 +289,9 @@ static inline squares_t squares_of(places8_t p) {
   }
   squares_t squares;
   squares.high = (wholes << (FRACTION_BITS - 1)) + mixed + (rests >> LOW_BITS);
+#if IS_WEIGHTED
+  squares.high += as_uint8(p.lag);
+#endif
   squares.low = rests & ((1u << LOW_BITS) - 1);
   return squares;
 }

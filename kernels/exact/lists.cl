@@ -3,7 +3,8 @@
 //
 // DOMINANCE. With the origin at the box's centre and w from its first pixel centre to its last along each
 // axis, the least of "how much farther is c than d" over the box is, at one of its corners,
-//   |c|^2 - |d|^2 - (wx |cx - dx| + wy |cy - dy| + wz |cz - dz|).
+//   |c|^2 - |d|^2 - (wx |cx - dx| + wy |cy - dy| + wz |cz - dz|),
+// where a lag counts as one more squared coordinate.
 // Where that is above 0, c is nowhere nearest. By the Manhattan metric the least is at a corner, too. Floats
 // compute it, with margins, so they drop places and decide nothing: docs/exact.md says why the margins are
 // enough, however far places are.
@@ -30,6 +31,9 @@ typedef struct {
 #if IS_VOLUME
   int z[LIST_ROOM];
 #endif
+#if IS_WEIGHTED
+  int lag[LIST_ROOM];
+#endif
 } list_t;
 
 typedef struct {
@@ -42,6 +46,7 @@ typedef struct {
   global const uint* starts;
   global const int *x, *y, *z;
   global const uint* ids;
+  global const int* lags;
   global const int2*
       order;            // by id, if places may be images of seeds in a plane: what orders these; else null
   int4 first, last;     // the pixels that get labels; others of the grid get none
@@ -95,6 +100,9 @@ static inline bool is_in_grid(const scene_t* scene, box_t b) {
 // Eight places, from a centre.
 typedef struct {
   int8 x, y, z;
+#if IS_WEIGHTED
+  int8 lag;
+#endif
 } places8_t;
 typedef struct {
   float8 x, y, z, n;  // and what orders them by distance: it, squared if Euclidean
@@ -108,19 +116,30 @@ static inline floats8_t floats_of(places8_t p) {
 #else
   f.n = fma(f.x, f.x, f.y * f.y);
   if (IS_VOLUME) f.n = fma(f.z, f.z, f.n);
+#if IS_WEIGHTED
+  f.n = fma(convert_float8(p.lag), (float8)LAG_UNIT, f.n);
+#endif
 #endif
   return f;
 }
 static inline places8_t load_from_list(const list_t* list, int k) {
-  places8_t p = {vload8(0, list->x + k), vload8(0, list->y + k), 0};
+  places8_t p;
+  p.x = vload8(0, list->x + k), p.y = vload8(0, list->y + k), p.z = 0;
 #if IS_VOLUME
   p.z = vload8(0, list->z + k);
+#endif
+#if IS_WEIGHTED
+  p.lag = vload8(0, list->lag + k);
 #endif
   return p;
 }
 static inline places8_t load_from_index(const scene_t* scene, uint at, int4 centre) {
-  places8_t p = {vload8(0, scene->x + at) - centre.x, vload8(0, scene->y + at) - centre.y, 0};
+  places8_t p;
+  p.x = vload8(0, scene->x + at) - centre.x, p.y = vload8(0, scene->y + at) - centre.y, p.z = 0;
   if (IS_VOLUME) p.z = vload8(0, scene->z + at) - centre.z;
+#if IS_WEIGHTED
+  p.lag = vload8(0, scene->lags + at);
+#endif
   return p;
 }
 static inline places8_t moved(places8_t p, int4 way) {
@@ -128,8 +147,10 @@ static inline places8_t moved(places8_t p, int4 way) {
   if (IS_VOLUME) p.z -= way.z;
   return p;
 }
-static inline float distance_of(float4 way) {  // as `n` above
-  return IS_MANHATTAN ? fabs(way.x) + fabs(way.y) : way.x * way.x + way.y * way.y + way.z * way.z;
+static inline float distance_of(float4 way) {  // as `n` above; w is the lag, in units squared
+  if (IS_MANHATTAN) return fabs(way.x) + fabs(way.y);
+  const float n = way.x * way.x + way.y * way.y + way.z * way.z;
+  return IS_WEIGHTED ? n + way.w : n;
 }
 
 // A place that drops others, and of a box the spans between its outer pixel centres (half of them by the
@@ -174,11 +195,14 @@ static inline int8 may_win(const floats8_t* f, const rival_t* rival, const spans
 #endif
 }
 static inline float4 place_in(const list_t* list, int k) {
+  float4 place = (float4)((float)list->x[k], (float)list->y[k], 0, 0);
 #if IS_VOLUME
-  return (float4)((float)list->x[k], (float)list->y[k], (float)list->z[k], 0);
-#else
-  return (float4)((float)list->x[k], (float)list->y[k], 0, 0);
+  place.z = (float)list->z[k];
 #endif
+#if IS_WEIGHTED
+  place.w = (float)list->lag[k] * LAG_UNIT;
+#endif
+  return place;
 }
 
 static inline int keep(list_t* list, int kept, int8 stays, const places8_t* p, uint8 at) {
@@ -188,6 +212,9 @@ static inline int keep(list_t* list, int kept, int8 stays, const places8_t* p, u
   store_ints(permuted_ints(p->y, lanes), list->y + kept);
 #if IS_VOLUME
   store_ints(permuted_ints(p->z, lanes), list->z + kept);
+#endif
+#if IS_WEIGHTED
+  store_ints(permuted_ints(p->lag, lanes), list->lag + kept);
 #endif
   store_uints(permuted(at, lanes), list->at + kept);
   return kept + (int)popcount(mask);
@@ -303,6 +330,18 @@ static inline lead_t lead_of(int8 c, int d, int twice_the_middle, float width) {
   return lead;
 }
 
+// The same of lags, which no pixel changes.
+static inline lead_t lead_of_lags(const list_t* list, int k, int d) {
+  lead_t lead = {0, 0};
+#if IS_WEIGHTED
+  lead.least = convert_float8(vload8(0, list->lag + k) - list->lag[d]) * LAG_UNIT;
+  lead.terms = fabs(lead.least);
+#else
+  (void)list, (void)k, (void)d;
+#endif
+  return lead;
+}
+
 static inline lead_t sum_of_leads(lead_t a, lead_t b) {
   a.least += b.least, a.terms += b.terms;
   return a;
@@ -354,6 +393,7 @@ NOINLINE static int drop_by_slices(list_t* list, int count, box_t box) {
       const lead_t lead = lead_of(vload8(0, own + k), own[0], twice, 0);
       float8 away = lead.least + lead_of(vload8(0, a + k), a[0], 0, 0).least;
       if (IS_VOLUME) away += lead_of(vload8(0, b + k), b[0], 0, 0).least;
+      if (IS_WEIGHTED) away += lead_of_lags(list, k, 0).least;
       const int8 is_nearer = (away < least) & (EIGHT + k < count);
       least = select(least, away, is_nearer), nearest = select(nearest, EIGHT + k, is_nearer);
     }
@@ -362,6 +402,7 @@ NOINLINE static int drop_by_slices(list_t* list, int count, box_t box) {
       lead_t lead = lead_of(vload8(0, own + k), own[rival], twice, w_own);
       lead = sum_of_leads(lead, lead_of(vload8(0, a + k), a[rival], 0, w_a));
       if (IS_VOLUME) lead = sum_of_leads(lead, lead_of(vload8(0, b + k), b[rival], 0, w_b));
+      if (IS_WEIGHTED) lead = sum_of_leads(lead, lead_of_lags(list, k, rival));
       const int8 wins = lead.least <= lead.terms * SLICE_MARGIN;
       store_ints(vload8(0, stays + k) | wins, stays + k);
     }

@@ -35,31 +35,33 @@ kernel void start_bins(global uint* restrict starts, int4 bits, int4 size) {
 // Writes the lists: places, and the ids of their seeds, which are the places' own numbers unless they are
 // given.
 kernel void list_places(global const given_t* restrict given, global const uint* restrict ids, int has_ids,
-                        uint count, int4 bits, int4 size, global uint* restrict starts,
-                        global int* restrict xs, global int* restrict ys, global uint* restrict ids_of_list) {
+                        uint count, int4 bits, int4 size, global const int* restrict lags_of_seeds,
+                        global uint* restrict starts, global int* restrict xs, global int* restrict ys,
+                        global uint* restrict ids_of_list, global int* restrict lags) {
   const bins_t bins = bins_of(bits, size);
   const uint item = (uint)get_global_id(0);
   if (item >= count || !is_given(given[item])) return;
   const int4 place = place_of(given[item]);
-  const places_of_bins_t places = {xs, ys, 0, ids_of_list};
-  put(&places, atomic_inc(starts + bin_of(&bins, place) + 1), place, has_ids ? ids[item] : item);
+  const places_of_bins_t places = {xs, ys, 0, ids_of_list, lags};
+  put(&places, atomic_inc(starts + bin_of(&bins, place) + 1), place, has_ids ? ids[item] : item,
+      lags_of_seeds);
 }
 
 // A work-group of one item has a row of bins.
 kernel void drop_repeats(global uint* restrict starts, int4 bits, int4 size, global int* restrict xs,
-                         global int* restrict ys, global uint* restrict ids) {
+                         global int* restrict ys, global uint* restrict ids, global int* restrict lags) {
   local uint seen[1 << TABLE_BITS];
   const bins_t bins = bins_of(bits, size);
   const int row = (int)get_global_id(0);
   if (row >= bins.rows) return;
-  const places_of_bins_t places = {xs, ys, 0, ids};
+  const places_of_bins_t places = {xs, ys, 0, ids, lags};
   drop_repeats_of_row(&places, starts + row * (bins.columns + 1), bins.columns, seen);
 }
 
 // --- labels ---
 
 typedef struct {
-  ulong distance;  // squared if Euclidean
+  ulong distance;  // squared if Euclidean, and the lag
   uint place;
 } winner_t;
 
@@ -78,7 +80,8 @@ static inline winner_t nearest_in(const scene_t* scene, span_t x, span_t y, int4
   int4 origin;
   while (next_range(scene, &walk, centre, &from, &to, &origin)) {
     for (uint at = from; at < to; ++at) {
-      const ulong distance = length_of(scene->x[at] - origin.x, scene->y[at] - origin.y);
+      const ulong lag = IS_WEIGHTED ? (ulong)scene->lags[at] * LAG_UNIT : 0;
+      const ulong distance = length_of(scene->x[at] - origin.x, scene->y[at] - origin.y) + lag;
       if (distance > best.distance) continue;
       if (distance == best.distance && !comes_first(scene, at, best.place)) continue;
       best.distance = distance;
@@ -124,11 +127,11 @@ static inline uint label_of(const scene_t* scene, int column, int row) {
 // Labels all pixels; those outside the region from `first` to `last` get no label.
 kernel void label_pixels(global const uint* restrict starts, global const int* restrict xs,
                          global const int* restrict ys, global const uint* restrict ids,
-                         global const int2* restrict order, int has_images, int4 bits, int4 size, int4 first,
-                         int4 last, global uint* restrict out) {
+                         global const int* restrict lags, global const int2* restrict order, int has_images,
+                         int4 bits, int4 size, int4 first, int4 last, global uint* restrict out) {
   const int item = (int)get_global_id(0), column = item % size.x, row = item / size.x;
   if (row >= size.y) return;
-  const scene_t scene = {bins_of(bits, size),    size,  starts, xs, ys, 0, ids,
+  const scene_t scene = {bins_of(bits, size),    size,  starts, xs, ys, 0, ids, lags,
                          has_images ? order : 0, first, last,   out};
   out[item] = has_label(&scene, column, row, 0) ? label_of(&scene, column, row) : NO_LABEL;
 }

@@ -3,6 +3,10 @@
 // are, and a bit is enough. A pixel is SPACING_X and its like units long, so that places of all grids are
 // those of one metric. A plane is a volume of one slice whose places have no z.
 //
+// WEIGHTS, with the build option VOROCL_WEIGHTED: a seed's lag is the greatest weight less its own, a whole
+// number of LAG_UNIT. Places are compared by |place - pixel|^2 + lag, as if the lag were the square of one
+// more coordinate, which all pixels have at 0.
+//
 // THE TIE RULE. Of the seeds at the least distance the first by z, y and x of its own position wins, then the
 // lowest id.
 
@@ -31,6 +35,12 @@
 #error "Keys and dominance of volumes are those of Euclidean distances"
 #endif
 
+#ifdef VOROCL_WEIGHTED
+#define IS_WEIGHTED 1
+#else
+#define IS_WEIGHTED 0
+#endif
+
 #ifdef VOROCL_FRACTIONS
 #define FRACTION_BITS MOST_FRACTION_BITS
 #else
@@ -39,6 +49,10 @@
 #define ONE (1 << FRACTION_BITS)
 #define HALF (ONE / 2)
 #define LOW_BITS (FRACTION_BITS + 1)
+#define LAG_UNIT (1 << LOW_BITS)  // so that lags leave the low bits of squares as they are
+#if IS_WEIGHTED && (IS_MANHATTAN || LAG_BITS != 2 * FRACTION_BITS - LOW_BITS)
+#error "Lags are whole numbers of 2^-LAG_BITS squared pixels, and have a place beside squares alone"
+#endif
 #define SPACINGS ((int4)(SPACING_X, SPACING_Y, SPACING_Z, 0))
 #define IS_SPACED (SPACING_X != 1 || SPACING_Y != 1 || SPACING_Z != 1)
 #define NO_PLACE 0xffffffffu

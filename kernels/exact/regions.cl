@@ -252,12 +252,13 @@ typedef union {
 // `zs` is for volumes, `order` for planes, where places may be images of seeds.
 kernel void label_regions(global const uint* restrict starts, global const int* restrict xs,
                           global const int* restrict ys, global const int* restrict zs,
-                          global const uint* restrict ids, global const int2* restrict order, int has_images,
-                          int4 bits, int4 size, int4 first, int4 last, global uint* restrict labels) {
+                          global const uint* restrict ids, global const int* restrict lags,
+                          global const int2* restrict order, int has_images, int4 bits, int4 size, int4 first,
+                          int4 last, global uint* restrict labels) {
   const int item = (int)get_global_id(0), columns = (size.x - 1) / SIDE + 1, rows = (size.y - 1) / SIDE + 1;
   const box_t own = box_at(item % columns * SIDE, item / columns % rows * SIDE, item / columns / rows * SIDE,
                            SIDE, SIDE, IS_VOLUME ? SIDE : 1);
-  const scene_t scene = {bins_of(bits, size),    size,  starts, xs,    ys, zs, ids,
+  const scene_t scene = {bins_of(bits, size),    size,  starts, xs,    ys, zs, ids, lags,
                          has_images ? order : 0, first, last,   labels};
   if (!is_in_grid(&scene, own)) return;
   const box_t region =

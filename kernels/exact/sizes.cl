@@ -10,6 +10,7 @@
 #define MOST_FRACTION_BITS 12
 #define SIDE_BITS 15
 #define AWAY_BITS 18
+#define LAG_BITS 11  // lags of weighted seeds are whole numbers of 2^-LAG_BITS squared pixels, and int32
 #if ((1 << AWAY_BITS) + (1 << SIDE_BITS)) << MOST_FRACTION_BITS > 0x7fffffff
 #error "The way from a pixel to a place does not fit in an int"
 #endif

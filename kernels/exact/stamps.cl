@@ -1,7 +1,7 @@
 // Dense places: an image of keys of a tile, into which each place of the tile and around it takes minima,
 // `side` rows by `side` rows, one or two vectors each. The `side` pixels of an axis that are nearest to a
 // place hold all pixel centres that are less than side / 2 away, so a pixel whose least distance is below
-// that is done. Others are searched.
+// that is done, whatever has a lag of that or more. Others are searched.
 //
 // Keys are as in keys.cl, with the origin of each place at the first pixel of its stamp: that moves by whole
 // pixels, so the low bits of |c|^2 stay, and |p|^2 is added, so that keys of places with other origins
@@ -36,7 +36,7 @@ typedef struct {
   int z[STAMP_ROOM], first_z[STAMP_ROOM];
 #endif
   int offset[STAMP_ROOM];  // of the first pixel in the image
-  uint high[STAMP_ROOM];   // of |c|^2
+  uint high[STAMP_ROOM];   // the lag; then that and |c|^2 without its low bits
   int low[STAMP_ROOM];
   int along[STAMP_ROOM];  // own positions along the first axis of the tie rule
   uint at[STAMP_ROOM];
@@ -48,6 +48,9 @@ typedef struct {
 
 // The first of the `side` pixels of an axis that are nearest to a place.
 #define FIRST_OF(place, side) ((((place) + ((side) % 2 ? 0 : HALF)) >> FRACTION_BITS) - (side) / 2)
+
+// (side / 2)^2 without the low bits, rounded up.
+static inline uint limit_of(int side) { return ((uint)(side * side << FRACTION_BITS) + 7) / 8; }
 
 #define OVERFLOW (-1)
 // The seeds whose stamps meet the tile; OVERFLOW if there are too many.
@@ -68,8 +71,14 @@ NOINLINE static int gather_stamps(const scene_t* scene, box_t tile, int side, st
       const int8 x = FIRST_OF(p.x, side), y = FIRST_OF(p.y, side), z = FIRST_OF(p.z, side);
       int8 meets = (x > -side) & (x < tile.sx) & (y > -side) & (y < tile.sy) & (EIGHT < (int)(to - at));
       if (IS_VOLUME) meets &= (z > -side) & (z < tile.sz);
+#if IS_WEIGHTED
+      meets &= p.lag < (int)limit_of(side);
+#endif
       const uint mask = mask_of(meets);
       const uint8 lanes = lanes_of(mask);
+#if IS_WEIGHTED
+      store_uints(permuted(as_uint8(p.lag), lanes), s->high + count);
+#endif
       store_ints(permuted_ints(p.x, lanes), s->x + count),
           store_ints(permuted_ints(p.y, lanes), s->y + count);
       store_uints(permuted(at + as_uint8(EIGHT), lanes), s->at + count);
@@ -101,7 +110,8 @@ NOINLINE static void prepare_stamps(int count, int side, stamps_t* s) {
     store_ints(az, s->z + k), store_ints(z, s->first_z + k);
 #endif
     store_ints(offset, s->offset + k);
-    store_uints(square >> LOW_BITS, s->high + k);
+    store_uints(IS_WEIGHTED ? vload8(0, s->high + k) + (square >> LOW_BITS) : square >> LOW_BITS,
+                s->high + k);
     store_ints(as_int8(square & ((1u << LOW_BITS) - 1)), s->low + k);
   }
 }
@@ -243,10 +253,11 @@ NOINLINE static bool label_by_stamps(const scene_t* scene, box_t tile, int side,
   const int count = gather_stamps(scene, tile, side, s);
   if (count <= 0) return false;
   const int bits = 32 - (int)clz((uint)max(count - 1, 1));
-  // The greatest distance of a lane.
+  // The greatest distance of a lane, squared, and lag.
   const int lanes = side > 8 ? 16 : 8, far_x = max(lanes - side / 2, side / 2) + 1, far_y = side / 2 + 1;
-  if ((ulong)(far_x * far_x + (VOROCL_DIMENSIONS - 1) * far_y * far_y) << (FRACTION_BITS - 1 + bits) >> 32)
-    return false;
+  const int most_lag = IS_WEIGHTED ? side * side / 4 + 1 : 0;
+  const int most = far_x * far_x + (VOROCL_DIMENSIONS - 1) * far_y * far_y + most_lag;
+  if ((ulong)most << (FRACTION_BITS - 1 + bits) >> 32) return false;
   prepare_stamps(count, side, s);
   order_stamps(scene, count, s);
   const bool inside = is_inside(scene, tile);
@@ -295,7 +306,7 @@ NOINLINE static bool label_by_stamps(const scene_t* scene, box_t tile, int side,
       stamp_12(count, bits, tile, s);
       break;
   }
-  const uint limit = ((uint)(side * side << FRACTION_BITS) + 7) / 8 << bits, mask = (1u << bits) - 1;
+  const uint limit = limit_of(side) << bits, mask = (1u << bits) - 1;
   const int sx = min(tile.sx, scene->size.x - tile.x), sy = min(tile.sy, scene->size.y - tile.y);
   const int sz = min(tile.sz, scene->size.z - tile.z);
   int8 far = 0;

@@ -48,13 +48,14 @@ static inline span_t of_image(span_t s, int image, int size, int periodic) {
   return periodic ? span_of(max(s.from - image * size, 0), min(s.to - image * size, size - 1)) : s;
 }
 
-// Centres and radii, squared if Euclidean, in units of the spacing. Of a plane's four balls there are two
-// each.
+// Centres and radii, squared if Euclidean and the known place's lag added, in units of the spacing. Of a
+// plane's four balls there are two each.
 typedef struct {
   float8 x, y, z, n;
 } balls_t;
 
 static inline float8 with_margin(float8 n) { return n * (1 + 0x1p-16f) + 0x1p-4f; }
+#define SQUARED_UNIT (1.f / ((float)ONE * (float)ONE))
 static inline float8 radius_of(float8 n) { return IS_MANHATTAN ? n : sqrt(n); }
 
 static inline balls_t balls_around(box_t b, float4 place) {
@@ -69,16 +70,17 @@ static inline balls_t balls_around(box_t b, float4 place) {
   balls.n = with_margin(fabs(x) + fabs(y));
 #else
   const float8 z = sides_z - place.z * (1.f / ONE);
-  balls.n = with_margin(x * x + y * y + z * z);
+  const float8 n = x * x + y * y + z * z;
+  balls.n = with_margin(IS_WEIGHTED ? n + place.w * SQUARED_UNIT : n);
 #endif
   return balls;
 }
 // One ball, in each lane.
 static inline balls_t ball_around(int4 centre, float4 place) {
-  const float4 middle = convert_float4(centre) * (1.f / ONE), way = place * (1.f / ONE);
+  const float4 middle = convert_float4(centre) * (1.f / ONE);
   balls_t ball;
   ball.x = middle.x, ball.y = middle.y, ball.z = middle.z;
-  ball.n = with_margin((float8)distance_of(way));
+  ball.n = with_margin((float8)(distance_of(place) * (IS_MANHATTAN ? 1.f / ONE : SQUARED_UNIT)));
   return ball;
 }
 

@@ -99,16 +99,13 @@ void read_volume(const Device& device, const ExactCellsResult& result, bool with
   add<double>(arrays, "areas", std::move(found.areas));
 }
 
-nb::typed<nb::dict, nb::str, nb::any> cut(SeedsObject& seeds, bool with_polyhedra,
-                                          const std::optional<Array<const double, nb::ndim<1>>>& weights) {
+nb::typed<nb::dict, nb::str, nb::any> cut(SeedsObject& seeds, bool with_polyhedra) {
   Arrays arrays;
   {
     const nb::gil_scoped_release unlocked;
     const std::lock_guard<std::mutex> turn(seeds.mutex);
     ExactCellsResult result;
-    ExactCellsOptions options;
-    if (weights) options.weights.assign(weights->data(), weights->data() + weights->size());
-    exact_cells(seeds.seeds, result, options);
+    exact_cells(seeds.seeds, result);
     if (seeds.seeds.grid().is_volume()) {
       read_volume(seeds.seeds.device(), result, with_polyhedra, arrays);
     } else {
@@ -123,7 +120,7 @@ nb::typed<nb::dict, nb::str, nb::any> cut(SeedsObject& seeds, bool with_polyhedr
 }  // namespace
 
 void bind_exact_cells(nb::module_& module) {
-  module.def("exact_cells", cut, nb::arg("seeds"), nb::arg("with_polyhedra"), nb::arg("weights").none());
+  module.def("exact_cells", cut, nb::arg("seeds"), nb::arg("with_polyhedra"));
 }
 
 }  // namespace vorocl::python

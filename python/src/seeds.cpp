@@ -21,8 +21,10 @@ Outside outside_of(const std::string& name) {
   return name == "absent" ? Outside::absent : Outside::refuse;
 }
 
-/// The rows as they lie in memory; those with a NaN are absent.
-Points view(const Rows& rows, std::vector<std::uint8_t>& present) {
+using Weights = std::optional<Array<const double, nb::ndim<1>>>;
+
+/// The rows as they lie in memory, and their weights; those with a NaN are absent.
+Points view(const Rows& rows, const Weights& weights, std::vector<std::uint8_t>& present) {
   constexpr auto size = static_cast<std::int64_t>(sizeof(double));
   const double* const x = rows.data();
   const double* const y = x + rows.stride(1);
@@ -35,14 +37,15 @@ Points view(const Rows& rows, std::vector<std::uint8_t>& present) {
     const bool is_absent = std::isnan(point.x) || std::isnan(point.y) || std::isnan(point.z);
     present[row] = is_absent ? 0 : 1;
   }
-  return points.marked(present.data());
+  return points.marked(present.data()).weighted(weights ? weights->data() : nullptr);
 }
 
 void make(SeedsObject* memory, const Device& device, const Grid& grid, const Rows& rows,
-          const std::string& outside, bool snap) {
+          const std::string& outside, bool snap, const Weights& weights) {
   std::vector<std::uint8_t> present;
   const Snap snapped = snap ? Snap::to_pixels : Snap::none;
-  new (memory) SeedsObject(Seeds(device, grid, view(rows, present), {outside_of(outside), snapped}), snapped);
+  new (memory)
+      SeedsObject(Seeds(device, grid, view(rows, weights, present), {outside_of(outside), snapped}), snapped);
 }
 
 std::unique_ptr<SeedsObject> from_mask(const Device& device, const Grid& grid,
@@ -52,9 +55,9 @@ std::unique_ptr<SeedsObject> from_mask(const Device& device, const Grid& grid,
 }
 
 /// On another grid, or on the one of the last frame.
-void move_to(SeedsObject& seeds, const Rows& rows, const std::optional<Grid>& grid) {
+void move_to(SeedsObject& seeds, const Rows& rows, const std::optional<Grid>& grid, const Weights& weights) {
   const Turn turn(seeds.mutex);
-  const Points points = view(rows, seeds.present);
+  const Points points = view(rows, weights, seeds.present);
   if (grid) {
     seeds.seeds.move_to(*grid, points);
   } else {
@@ -118,9 +121,10 @@ void bind_seeds(nb::module_& module) {
                   nb::arg("outside"), nb::arg("snap"), without_gil())
       .def("move_to_buffer", move_to_buffer, nb::arg("points"), without_gil())
       .def("__init__", make, nb::arg("device"), nb::arg("grid"), nb::arg("points"), nb::arg("outside"),
-           nb::arg("snap"), without_gil())
+           nb::arg("snap"), nb::arg("weights").none(), without_gil())
       .def_static("from_mask", from_mask, nb::arg("device"), nb::arg("grid"), nb::arg("mask"), without_gil())
-      .def("move_to", move_to, nb::arg("points"), nb::arg("grid").none(), without_gil())
+      .def("move_to", move_to, nb::arg("points"), nb::arg("grid").none(), nb::arg("weights").none(),
+           without_gil())
       .def_prop_ro("displacement", said<&Seeds::displacement>, without_gil())
       .def("read", read, nb::arg("points"), nb::arg("in_pixels"), nb::arg("themselves") = false,
            without_gil())

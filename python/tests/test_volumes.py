@@ -45,6 +45,63 @@ def test_labels_are_those_of_brute_force(shape, count, snap):
     assert np.array_equal(vorocl.diagram(points, shape, snap=snap), brute_force(points, shape, snap))
 
 
+def power_of(points, weights, shape, labels, is_periodic):
+    """Of each voxel, the squared distance to its point less the weight, the shorter way round."""
+    sides = np.array(shape[::-1])
+    ways = abs(np.stack(np.indices(shape), axis=-1)[..., ::-1] + 0.5 - points[labels])
+    return (np.minimum(ways, sides - ways if is_periodic else np.inf) ** 2).sum(-1) - weights[labels]
+
+
+@exact_alone
+@pytest.mark.parametrize("is_periodic", [True, False])
+@pytest.mark.parametrize("on_grid", [True, False])
+@pytest.mark.parametrize("side", [1, 6, 40])  # of the heaviest
+def test_weighted_labels_are_those_of_a_k_d_tree_of_four_dimensions(is_periodic, on_grid, side):
+    """As DAMASK has it: the root of what a weight lacks to the greatest is a coordinate."""
+    shape, rng = (40, 50, 60), np.random.default_rng(side)
+    points, weights = points_in(shape, 400, side), rng.uniform(0, side**2, 400)
+    if on_grid:
+        points, weights = np.floor(points * PARTS) / PARTS, np.floor(weights * 2048) / 2048
+    box = [*shape[::-1], 10 * side + 1000] if is_periodic else None
+    tree = cKDTree(np.column_stack((points, np.sqrt(weights.max() - weights))), boxsize=box)
+    centres = np.stack(np.indices(shape), axis=-1)[..., ::-1].reshape(-1, 3) + 0.5
+    expected = tree.query(np.column_stack((centres, np.zeros(len(centres)))))[1].reshape(shape)
+    labels = vorocl.diagram(points, shape, periodic=(is_periodic,) * 3, weights=weights)
+    lead = [power_of(points, weights, shape, each, is_periodic) for each in (labels, expected)]
+    assert np.max(lead[0] - lead[1]) < (1e-9 if on_grid else 0.02)
+    assert np.mean(labels != expected) < 1e-3
+    scaled = vorocl.diagram(
+        points / 8, shape, periodic=(is_periodic,) * 3, weights=weights / 64, bounds=(0, 0, 0, 7.5, 6.25, 5)
+    )
+    np.testing.assert_array_equal(scaled, labels)
+
+
+def test_weights_of_planes_and_of_frames():
+    rng = np.random.default_rng(5)
+    points, weights = rng.uniform(0, 64, (200, 2)), rng.uniform(0, 30, 200)
+    rows, columns = np.indices((64, 64)) + 0.5
+    labels = vorocl.diagram(points, (64, 64), weights=weights)
+    simulation = vorocl.Simulation((64, 64))
+    for shift in range(3):
+        moved = simulation.step(points + shift, weights=weights * shift)
+        powers = (columns[..., None] - points[:, 0] - shift) ** 2 + (rows[..., None] - points[:, 1] - shift) ** 2
+        powers -= weights * shift
+        found = np.take_along_axis(powers, moved.read()[..., None].astype(int), axis=-1)[..., 0]
+        assert np.max(found - powers.min(axis=-1)) < 0.02
+    with pytest.raises(vorocl.BadArgument, match="give each a weight"):
+        simulation.step(points)
+    np.testing.assert_array_equal(vorocl.diagram(points, (64, 64), weights=weights + 7), labels)
+    np.testing.assert_array_equal(vorocl.areas(points, (64, 64), weights=weights), np.bincount(labels.ravel(), minlength=200))
+    np.testing.assert_array_equal(
+        vorocl.diagram(points, (64, 64), weights=np.full(200, 3)), vorocl.diagram(points, (64, 64))
+    )
+    for method, words in (dict(method="jfa"), "jfa"), (dict(metric="manhattan"), "Euclidean"), (dict(snap=True), "snapped"):
+        with pytest.raises(vorocl.BadArgument, match=words):
+            vorocl.diagram(points, (64, 64), weights=weights, **method)
+    with pytest.raises(vorocl.BadArgument, match="squares"):
+        vorocl.diagram(points, (64, 64), bounds=(0, 0, 64, 32), weights=weights)
+
+
 @exact_alone
 @pytest.mark.parametrize("shape", [(60, 50, 70), (3, 1, 40)])
 @pytest.mark.parametrize("count", [1, 20, 3000])

@@ -69,6 +69,7 @@ WRONG = {
     "tilt": [np.nan, np.inf, "x", [], 1.0, 10**400, Hostile()],  # the axes are not periodic
     "max_displacement": [-1, np.nan, "x", [], 10**400, Hostile()],
 }
+WRONG["weights"] = NO_NUMBERS[1:] + [1, [1, 2], [1, 2, np.nan], [1, np.inf, 2], np.zeros((3, 1)), ["a"] * 3]
 WRONG["sampling"] = ["x", [], (1, 1001), (1, 1, 1), -1, 0, np.nan, np.inf, object(), {}, Hostile()]
 WRONG["shape"] = WRONG["grid"]
 WRONG["spacing"] = WRONG["sampling"]
@@ -81,7 +82,7 @@ WRONG["distances"] += [frozen(np.zeros((8, 10))), np.broadcast_to(0.0, (8, 10))]
 WRONG["indices"] = WRONG["distances"]
 WRONG["a"] = WRONG["labels"] + [np.zeros((3, 3), int), np.full((8, 10), -1), np.full((8, 10), 2**32), np.zeros((8, 10))]
 
-POINTS = ("points", "grid", "method", "metric", "bounds", "periodic", "tilt", "outside", "y_up", "snap", "device")
+POINTS = ("points", "grid", "method", "metric", "bounds", "periodic", "tilt", "outside", "y_up", "snap", "weights", "device")
 CALLS = {
     vorocl.diagram: POINTS + ("out",),
     vorocl.distances: POINTS + ("out", "units"),
@@ -90,14 +91,14 @@ CALLS = {
     vorocl.adjacency: POINTS + ("units",),
     vorocl.vertices: POINTS + ("units",),
     vorocl.Grid: ("shape", "bounds", "periodic", "tilt", "y_up"),
-    vorocl.exact_cells: ("points", "bounds", "periodic", "tilt", "outside", "device"),
+    vorocl.exact_cells: ("points", "bounds", "periodic", "tilt", "outside", "weights", "device"),
     vorocl.relax: ("points", "grid", "rounds", "density", "exact", "method", "bounds", "periodic", "outside", "y_up", "snap", "device"),
     vorocl.from_mask: ("mask", "method", "metric", "periodic", "out", "device"),
     vorocl.expand_labels: ("label_image", "distance", "spacing", "device"),
     vorocl.distance_transform_edt: ("input", "sampling", "distances", "indices", "device"),
     vorocl.similarity: ("a", "b"),
     vorocl.errors: ("labels", "points", "metric", "bounds", "periodic", "tilt", "outside", "y_up", "truth", "device"),
-    vorocl.Seeds: ("points", "grid", "bounds", "periodic", "tilt", "outside", "y_up", "snap", "device"),
+    vorocl.Seeds: ("points", "grid", "bounds", "periodic", "tilt", "outside", "y_up", "snap", "weights", "device"),
     vorocl.Diagram: ("grid", "periodic", "device", "labels"),
     vorocl.Simulation: ("grid", "bounds", "periodic", "tilt", "outside", "y_up", "snap", "device"),
 }
@@ -136,6 +137,8 @@ def test_a_thousand_wrong_calls():
     simulation = vorocl.Simulation((8, 10), outside="refuse")
     for points in WRONG["points"]:
         calls += [(seeds.move_to, {"points": points}), (simulation.step, {"points": points})]
+    for weights in WRONG["weights"]:
+        calls += [(call, {"points": RIGHT, "weights": weights}) for call in (seeds.move_to, simulation.step)]
     for value in NO_NUMBERS + [1, RIGHT, diagram, vorocl.Seeds]:
         calls += [(diagram.fill, {"seeds": value})]
         if value is not None:

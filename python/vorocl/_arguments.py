@@ -77,6 +77,19 @@ def to_one_of(names: Any, value: Text, what: str) -> Text:
     return value
 
 
+def to_weights(weights: Optional[ArrayLike], count: int) -> Optional[NDArray[np.float64]]:
+    """One finite number per point."""
+    if weights is None:
+        return None
+    try:
+        array = np.ascontiguousarray(weights, dtype=np.float64)
+    except (TypeError, ValueError):
+        raise BadArgument(f"weights must be an array of numbers; this is {shown(weights)}") from None
+    if array.shape != (count,):
+        raise BadArgument(f"weights must have the shape ({count},), one per point; this array has the shape {array.shape}")
+    return array
+
+
 def to_outside(outside: Outside) -> Outside:
     """What is done about points outside."""
     return to_one_of(Outside, outside, "outside")

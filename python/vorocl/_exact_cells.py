@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _vorocl
-from ._arguments import Outside, row_of, shown, to_flag, to_outside, to_points
+from ._arguments import Outside, row_of, shown, to_flag, to_outside, to_points, to_weights
 from ._device import Device, to_device
 from ._errors import BadArgument
 from ._grid import Bounds, Grid, Periodic, Tilt, to_periodic
@@ -363,19 +363,6 @@ def _to_region(region: Any) -> Tuple[Any, Any]:
     return area, getattr(region, "crs", None)
 
 
-def to_weights(weights: Optional[ArrayLike], count: int) -> Optional[NDArray[np.float64]]:
-    """One finite number per point."""
-    if weights is None:
-        return None
-    try:
-        array = np.ascontiguousarray(weights, dtype=np.float64)
-    except (TypeError, ValueError):
-        raise BadArgument(f"weights must be an array of numbers; this is {shown(weights)}") from None
-    if array.shape != (count,):
-        raise BadArgument(f"weights must have the shape ({count},), one per point; this array has the shape {array.shape}")
-    return array
-
-
 @with_parameters
 def exact_cells(
     points: ArrayLike,
@@ -411,11 +398,9 @@ def exact_cells(
     outside : {"count", "absent", "refuse"}, optional
         What becomes of points outside the bounds. "count": they have what of the rectangle is nearest to them; in a volume
         they are refused. "absent": they have no cell. "refuse": they are an error.
-    weights : array_like, optional
-        Shape (N,), in squared units of the data: cells are those of the power diagram (Laguerre, radical), in which a place
-        belongs to the point of the least squared distance less its weight. Of spheres give the squared radii. Cells may be
-        empty, and a point may lie outside its cell. Weights are rounded to the square of what points are rounded to, or to
-        2**-53 of how far the greatest lies above them.
+    <weights>
+        Weights are rounded to the square of what points are rounded to, or to 2**-53 of how far the greatest lies above
+        them.
     polyhedra : bool, optional
         Of a volume: whether vertices and faces are made too. Cells are cut twice then.
     <device>
@@ -466,6 +451,7 @@ def exact_cells(
         raise BadArgument("polyhedra are of volumes: give points (x, y, z), and six bounds")
     grid = Grid((2, 1, 1) if dimensions == 3 else (1, 1), bounds, periodic, tilt)._of(outside)
     array = to_points(points, dimensions)
-    seeds = _vorocl.Seeds(to_device(device)._device, grid, array, to_outside(outside), True)
-    found = _vorocl.exact_cells(seeds, with_polyhedra, to_weights(weights, len(array)))
+    given = to_weights(weights, len(array))
+    seeds = _vorocl.Seeds(to_device(device)._device, grid, array, to_outside(outside), True, given)
+    found = _vorocl.exact_cells(seeds, with_polyhedra)
     return ExactCells(array, found, any(to_periodic(periodic, dimensions)))

@@ -36,6 +36,7 @@ from ._arguments import (
     to_text,
     to_truth,
     to_units,
+    to_weights,
     unmasked,
 )
 from ._device import Device, to_device
@@ -78,6 +79,7 @@ def _filled(
     metric: Metric,
     outside: Outside,
     snap: Optional[bool],
+    weights: Optional[ArrayLike],
     device: Optional[Device],
     labels: Optional[NDArray[np.uint32]] = None,
 ) -> Diagram:
@@ -85,14 +87,15 @@ def _filled(
     if metric == "great-circle":
         grid = to_globe(grid, outside)
     array, snapped = to_points(points, len(grid.shape)), to_snap(snap, method)
-    wanted = (grid, to_outside(outside), snapped, to_device(device))
+    given = to_weights(weights, len(array))
+    wanted = (grid, to_outside(outside), snapped, to_device(device), given is None)
     if _workspace.made_for != wanted:
         _workspace.made_for = None
-        _workspace.seeds = Seeds(array, grid, outside=outside, snap=snapped, device=device)
+        _workspace.seeds = Seeds(array, grid, outside=outside, snap=snapped, weights=given, device=device)
         _workspace.diagram = Diagram(grid, device=device)
         _workspace.made_for = wanted
     else:
-        _workspace.seeds._seeds.move_to(array, None)  # without asking how far
+        _workspace.seeds._seeds.move_to(array, None, given)  # without asking how far
     made = _workspace.diagram
     if method in _CONTINUING:
         made = Diagram(grid, device=device)  # or it would go on from the last call's labels
@@ -114,6 +117,7 @@ def diagram(
     metric: Metric = "euclidean",
     outside: Outside = "count",
     snap: Optional[bool] = None,
+    weights: Optional[ArrayLike] = None,
     out: Optional[NDArray[np.uint32]] = None,
     device: Optional[Device] = None,
     **frame: Unpack[Frame],
@@ -131,7 +135,7 @@ def diagram(
 
     Parameters
     ----------
-    <points, grid, method, metric, outside, snap>
+    <points, grid, method, metric, outside, snap, weighted>
     out : ndarray, optional
         Where the labels go: uint32 of the shape, C-contiguous. Without it, a new array.
     <device>
@@ -166,10 +170,15 @@ def diagram(
     array([[[0, 0, 1, 1]],
     <BLANKLINE>
            [[0, 0, 1, 1]]], dtype=uint32)
+
+    Two circles, of the radii 2 and 1, meet where tangents to both are as long:
+
+    >>> vorocl.diagram([(1, 0.5), (7, 0.5)], (1, 8), weights=[4, 1])
+    array([[0, 0, 0, 0, 1, 1, 1, 1]], dtype=uint32)
     """
     made = to_grid(grid, frame)
     labels = output(out, made.shape, np.uint32)
-    _filled(points, made, method, metric, outside, snap, device, labels)
+    _filled(points, made, method, metric, outside, snap, weights, device, labels)
     return labels
 
 
@@ -501,6 +510,7 @@ def distances(
     metric: Metric = "euclidean",
     outside: Outside = "count",
     snap: Optional[bool] = None,
+    weights: Optional[ArrayLike] = None,
     units: Optional[Units] = None,
     out: Optional[NDArray[np.float32]] = None,
     device: Optional[Device] = None,
@@ -510,7 +520,7 @@ def distances(
 
     Parameters
     ----------
-    <points, grid, method, metric, outside, snap, units>
+    <points, grid, method, metric, outside, snap, weighted, units>
     out : ndarray, optional
         Where the distances go: float32 of the shape, C-contiguous. Without it, a new array.
     <device>
@@ -535,7 +545,7 @@ def distances(
     to_units(units, True)
     made = to_grid(grid, frame)
     values = output(out, made.shape, np.float32)
-    return _filled(points, made, method, metric, outside, snap, device).distances(values, units=units)
+    return _filled(points, made, method, metric, outside, snap, weights, device).distances(values, units=units)
 
 
 def _measured(
@@ -546,13 +556,14 @@ def _measured(
     metric: Metric = "euclidean",
     outside: Outside = "count",
     snap: Optional[bool] = None,
+    weights: Optional[ArrayLike] = None,
     units: Optional[Units] = None,
     device: Optional[Device] = None,
     **frame: Unpack[Frame],
 ) -> Diagram:
     """The diagram whose measures are asked for, in these units."""
     to_units(units, True)
-    return _filled(points, to_grid(grid, frame), method, metric, outside, snap, device)
+    return _filled(points, to_grid(grid, frame), method, metric, outside, snap, weights, device)
 
 
 def _of_points(diagram_of: Callable[How, Diagram], measure: Callable[..., Found]) -> Callable[How, Found]:
@@ -569,7 +580,7 @@ def _of_points(diagram_of: Callable[How, Diagram], measure: Callable[..., Found]
     text = inspect.getdoc(measure)
     if text is not None:  # python -OO leaves none
         title = "Parameters\n----------\n"
-        made.__doc__ = text.replace(title, title + "<points, grid, method, metric, outside, snap, device>\n")
+        made.__doc__ = text.replace(title, title + "<points, grid, method, metric, outside, snap, weighted, device>\n")
     return with_parameters(function)
 
 

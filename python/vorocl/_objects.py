@@ -26,6 +26,7 @@ from ._arguments import (
     to_text,
     to_truth,
     to_units,
+    to_weights,
 )
 from ._device import Buffer, Device, OnDevice, is_of_pyopencl, to_device
 from ._errors import BadArgument
@@ -67,6 +68,11 @@ class DistanceErrors(NamedTuple):
         return 100 * self.wrong_pixels / self.pixels
 
 
+def _refuse_weights(weights: Optional[ArrayLike]) -> None:
+    if weights is not None:
+        raise BadArgument("weights are those of arrays of NumPy's: points on the device have none")
+
+
 def to_seeds(seeds: Seeds) -> _vorocl.Seeds:
     if not isinstance(seeds, Seeds):
         raise BadArgument(f"seeds must be vorocl.Seeds; these are of type {type(seeds).__name__}")
@@ -83,7 +89,7 @@ class Seeds(OnDevice):
 
     Parameters
     ----------
-    <points, grid, outside, snap, device>
+    <points, grid, outside, snap, weighted, device>
 
     Points may be a `pyopencl.array.Array` of float32 or float64 in the context of `device`, whole and contiguous. They
     stay on the device, are placed there behind what its queue holds, and nothing waits for them unless they may lie
@@ -116,6 +122,7 @@ class Seeds(OnDevice):
         *,
         outside: Outside = "count",
         snap: Optional[bool] = None,
+        weights: Optional[ArrayLike] = None,
         device: Optional[Device] = None,
         **frame: Unpack[Frame],
     ) -> None:
@@ -126,10 +133,12 @@ class Seeds(OnDevice):
         how = self._outside, to_snap(snap)
         there = _points_there(points, dimensions)
         if there:
+            _refuse_weights(weights)
             self._seeds = _vorocl.Seeds.from_buffer(self._device._device, self._grid._of(outside), there, *how)
         else:
             array = to_points(points, dimensions)
-            self._seeds = _vorocl.Seeds(self._device._device, self._grid._of(outside), array, *how)
+            given = to_weights(weights, len(array))
+            self._seeds = _vorocl.Seeds(self._device._device, self._grid._of(outside), array, *how, given)
 
     @property
     def grid(self) -> Grid:
@@ -153,7 +162,12 @@ class Seeds(OnDevice):
         return self._seeds.alive
 
     def move_to(
-        self, points: ArrayLike, *, bounds: Optional[Bounds] = None, tilt: Optional[float] = None
+        self,
+        points: ArrayLike,
+        *,
+        bounds: Optional[Bounds] = None,
+        tilt: Optional[float] = None,
+        weights: Optional[ArrayLike] = None,
     ) -> Optional[int]:
         """Move the seeds to new points: a new frame. Their number may change.
 
@@ -166,6 +180,8 @@ class Seeds(OnDevice):
             What the grid shows from this frame on, such as a simulation's box that changes. Without it, what it showed.
         tilt : float, optional
             The tilt from this frame on, such as that of a box that is sheared. Without it, what it was.
+        weights : array_like, optional
+            Those of these points, as that of the constructor: seeds with weights go to points with weights.
 
         Returns
         -------
@@ -192,10 +208,12 @@ class Seeds(OnDevice):
         if there:
             if not is_same:
                 raise BadArgument("points on the device keep the bounds and the tilt of their grid: make new Seeds of them")
+            _refuse_weights(weights)
             self._seeds.move_to_buffer(there)
             return None
         grid = self._grid._showing(bounds, tilt)
-        self._seeds.move_to(to_points(points, dimensions), None if is_same else grid._of(self._outside))
+        array = to_points(points, dimensions)
+        self._seeds.move_to(array, None if is_same else grid._of(self._outside), to_weights(weights, len(array)))
         self._grid = grid
         self._are_in_data = self._are_in_data or bounds is not None
         return int(self._seeds.displacement)
@@ -723,7 +741,12 @@ class Simulation(OnDevice):
         return f"<vorocl.Simulation of {len(self.seeds)} points, method {self._method}, of the shape {self.diagram.shape}>"
 
     def step(
-        self, points: ArrayLike, *, bounds: Optional[Bounds] = None, tilt: Optional[float] = None
+        self,
+        points: ArrayLike,
+        *,
+        bounds: Optional[Bounds] = None,
+        tilt: Optional[float] = None,
+        weights: Optional[ArrayLike] = None,
     ) -> Diagram:
         """Move the seeds to the points of the next frame, and fill the diagram. Enqueues the work and returns.
 
@@ -735,6 +758,8 @@ class Simulation(OnDevice):
             What the grid shows from this frame on, such as a box that changes. Without it, what it showed.
         tilt : float, optional
             The tilt from this frame on, such as that of a box that is sheared. Without it, what it was.
+        weights : array_like, optional
+            Those of these points: see `Seeds`. Frames with weights follow each other.
 
         Returns
         -------
@@ -747,6 +772,6 @@ class Simulation(OnDevice):
             The frame counts as not made then.
         BadArgument, DeviceMemoryError, DeviceError
         """
-        self.seeds.move_to(points, bounds=bounds, tilt=tilt)
+        self.seeds.move_to(points, bounds=bounds, tilt=tilt, weights=weights)
         self.report = self.diagram.fill(self.seeds, self._method, self._metric)
         return self.diagram

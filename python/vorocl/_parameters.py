@@ -10,6 +10,17 @@ _TEXTS = {
 points : array_like
     Shape (N, 2), rows (x, y): in pixels, x to the right, y down, or in the units of `bounds`. Pixel i covers
     [i, i + 1). A row with a NaN is absent, and so is a row that is masked. In a volume (N, 3), rows (x, y, z).""",
+    "weights": """\
+weights : array_like, optional
+    Shape (N,), in squared units of the points: cells are those of the power diagram (Laguerre, radical), in which a place
+    belongs to the point of the least squared distance less its weight. Of spheres give the squared radii. Cells may be
+    empty, and a point may lie outside its cell.""",
+    "weighted": """\
+weights : array_like, optional
+    Shape (N,), in squared units of the points: labels are those of the power diagram (Laguerre, radical), in which a place
+    belongs to the point of the least squared distance less its weight. Of spheres give the squared radii. Points without
+    a pixel are usual then, and distances are as without weights. "exact" alone takes weights, by the Euclidean metric, of
+    pixels that are squares or cubes in the units of `bounds`, to 1 %; they are rounded to 2**-11 squared pixels.""",
     "snap": """\
 snap : bool, optional
     Whether points are moved to the centres of their pixels, as methods that flood always do. Without it, "exact" takes

@@ -35,15 +35,6 @@ vorocl_status vorocl_exact_cells_cut(vorocl_exact_cells* cells, const vorocl_see
   return guarded([&] { exact_cells(of(seeds), of(cells)); });
 }
 
-vorocl_status vorocl_exact_cells_cut_weighted(vorocl_exact_cells* cells, const vorocl_seeds* seeds,
-                                              const double* weights, size_t count) {
-  return guarded([&] {
-    if (count > 0) given(weights, "weights");
-    check_count(of(seeds).size(), "weights", count);
-    exact_cells(of(seeds), of(cells), {{weights, weights + count}});
-  });
-}
-
 vorocl_status vorocl_exact_cells_count(const vorocl_exact_cells* cells, size_t* count) {
   return answer(count, "count", [&] { return of(cells).size(); });
 }

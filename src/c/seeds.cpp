@@ -17,6 +17,11 @@ Points to_points(const vorocl_point* points, const uint8_t* present, std::size_t
       .marked(present);
 }
 
+Points to_weighted(const vorocl_point* points, const double* weights, const uint8_t* present,
+                   std::size_t count) {
+  return to_points(points, present, count).weighted(count == 0 ? nullptr : &given(weights, "weights"));
+}
+
 PointBuffer to_points(cl_mem points, vorocl_point_format format, cl_mem present, std::size_t count) {
   given(points, "points");
   constexpr PointFormat formats[] = {PointFormat::floats_xy, PointFormat::doubles_xy, PointFormat::floats_xyz,
@@ -59,6 +64,16 @@ vorocl_status vorocl_seeds_from_points(const vorocl_device* device, vorocl_grid 
                                        vorocl_outside outside, vorocl_snap snap, vorocl_seeds** seeds) {
   return make_object(seeds, "seeds", [&] {
     return vorocl_seeds{Seeds(of(device), to_grid(grid), to_points(points, present, count),
+                              {to_outside(outside), to_snap(snap)})};
+  });
+}
+
+vorocl_status vorocl_seeds_from_weighted_points(const vorocl_device* device, vorocl_grid grid,
+                                                const vorocl_point* points, const double* weights,
+                                                const uint8_t* present, size_t count, vorocl_outside outside,
+                                                vorocl_snap snap, vorocl_seeds** seeds) {
+  return make_object(seeds, "seeds", [&] {
+    return vorocl_seeds{Seeds(of(device), to_grid(grid), to_weighted(points, weights, present, count),
                               {to_outside(outside), to_snap(snap)})};
   });
 }
@@ -117,6 +132,15 @@ vorocl_status vorocl_seeds_displacement(const vorocl_seeds* seeds, double* displ
 vorocl_status vorocl_seeds_move_to(vorocl_seeds* seeds, const vorocl_point* points, const uint8_t* present,
                                    size_t count) {
   return guarded([&] { of(seeds).move_to(to_points(points, present, count)); });
+}
+
+vorocl_status vorocl_seeds_move_to_weighted_points(vorocl_seeds* seeds, const vorocl_grid* grid,
+                                                   const vorocl_point* points, const double* weights,
+                                                   const uint8_t* present, size_t count) {
+  return guarded([&] {
+    const Grid next = grid == nullptr ? of(seeds).grid() : to_grid(*grid);
+    of(seeds).move_to(next, to_weighted(points, weights, present, count));
+  });
 }
 
 vorocl_status vorocl_seeds_move_to_grid(vorocl_seeds* seeds, vorocl_grid grid, const vorocl_point* points,

@@ -114,8 +114,15 @@ Filling::Filling(const Seeds& seeds, Diagram& diagram, Metric metric, const char
   ++*diagram_.fills;
   if (method != std::string_view("exact")) refuse_great_circles(metric, method);
   next_.metric = checked(metric);
-  next_.placement = diagram_.place(seeds, metric);
   next_.seeds = Internal::state(seeds).frame();
+  if (next_.seeds->lags()) {
+    if (method != std::string_view("exact"))
+      refuse_weights(*next_.seeds, std::string("the method ") + method);
+    if (metric != Metric::euclidean) refuse_weights(*next_.seeds, "a metric that is not Euclidean");
+    if (!next_.seeds->is_off_centre)
+      throw Error("weights are those of the points themselves, and these seeds are snapped to pixels");
+  }
+  next_.placement = diagram_.place(seeds, metric);
   next_.method = method;
 }
 

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "core/placement.hpp"
+#include "core/seeds_frame.hpp"
 #include "core/window_places.hpp"
 #include "runtime/buffer.hpp"
 #include "vorocl/error.hpp"
@@ -85,7 +86,7 @@ std::shared_ptr<const PointPlacement> placed_points(const Window& window, const 
 
 std::shared_ptr<const PointPlacement> place_points(const Device& device, const Window& window,
                                                    const PixelGrid& shown, const std::vector<Place>& given,
-                                                   bool are_points) {
+                                                   bool are_points, const Lags* lags) {
   const std::size_t count = given.size();
   // So that all seeds are near where they lie themselves.
   constexpr std::int64_t most_if_tilted = most_pixels_away / 2;
@@ -121,10 +122,14 @@ std::shared_ptr<const PointPlacement> place_points(const Device& device, const W
         each_place(centres, images, place_of(id), [&](const Place& place) { use(place, id); });
       }
     };
+    const auto lag_of = [lags](std::size_t id) {
+      constexpr double unit = fractions_of_pixel * (fractions_of_pixel >> LAG_BITS);
+      return lags == nullptr ? 0.0 : unit * lags->of_seeds[id];
+    };
     Rim rim(centres);
-    each([&](const Place& place, std::size_t) { rim.add(place); });
+    each([&](const Place& place, std::size_t id) { rim.add(place, lag_of(id)); });
     each([&](const Place& place, std::size_t id) {
-      if (rim.rules_out(place)) return;
+      if (rim.rules_out(place, lag_of(id))) return;
       if (!fits(place) && are_points) {
         throw Error("seed " + std::to_string(id) + " may own pixels of the diagram, and lies more than " +
                     std::to_string(most_pixels_away) +

@@ -30,11 +30,13 @@ struct PointPlacement {
   bool seeds_in_pixels = false, places_in_pixels = false;
 };
 
-/// Places points that the host knows, from the grid's first pixel on, or seeds at the centres of pixels.
-/// Throws Error if a point that may own a pixel is too far away for 32 bits.
+struct Lags;
+
+/// Places points that the host knows, from the grid's first pixel on, or seeds at the centres of pixels;
+/// `lags` may be null. Throws Error if a point that may own a pixel is too far away for 32 bits.
 std::shared_ptr<const PointPlacement> place_points(const Device& device, const Window& window,
                                                    const PixelGrid& shown, const std::vector<Place>& places,
-                                                   bool are_points);
+                                                   bool are_points, const Lags* lags);
 
 /// The same of points that a kernel has placed in all of a grid whose periods kernels go round themselves.
 std::shared_ptr<const PointPlacement> placed_points(const Window& window, const PixelGrid& shown,

@@ -53,6 +53,12 @@ Points Points::marked(const std::uint8_t* present) const {
   return points;
 }
 
+Points Points::weighted(const double* weights) const {
+  Points points = *this;
+  points.weights_ = weights;
+  return points;
+}
+
 Seeds::Seeds(std::unique_ptr<SeedsState> state) : state_(std::move(state)) {}
 Seeds::~Seeds() = default;
 Seeds::Seeds(Seeds&& other) noexcept = default;

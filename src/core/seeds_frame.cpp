@@ -3,7 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <limits>
+#include <sstream>
 #include <string>
+#include <utility>
 
 #include "core/snapping.hpp"
 #include "core/window_places.hpp"
@@ -11,6 +14,7 @@
 #include "runtime/buffer.hpp"
 // Last: it defines macros.
 #include "core/place_sizes.cl"
+#include "exact/sizes.cl"
 
 namespace vorocl {
 
@@ -243,7 +247,71 @@ class Placements {
   Remembered<PointPlacement> of_points;
   MadeOnce<std::vector<Place>> places;
   MadeOnce<GlobeSeeds> on_globe;
+  MadeOnce<Lags> lags;
 };
+
+// --- weights ---
+
+namespace {
+
+/// The side of a pixel in the units of the data.
+double side_of(const Axis& axis) { return (axis.to() - axis.from()) / static_cast<double>(axis.pixels()); }
+
+/// Of a pixel of a grid, or of a voxel's faces, in the units of the data; 0 if it is none of a square or
+/// cube, whose sides may differ as whole numbers of pixels make them.
+double square_of(const Grid& grid) {
+  constexpr double rounded = 1.01;
+  const double x = side_of(grid.x()), y = side_of(grid.y()), z = grid.is_volume() ? side_of(grid.z()) : x;
+  if (grid.is_spaced() || std::max({x, y, z}) > rounded * std::min({x, y, z})) return 0;
+  return grid.is_volume() ? (x * y + y * z + z * x) / 3 : x * y;
+}
+
+/// A number that no squared distance from a pixel of a grid to a seed in it is above, in pixels.
+double most_distance(const Grid& grid) {
+  const auto along = [](const Axis& axis) { return std::pow(static_cast<double>(axis.pixels()), 2); };
+  return along(grid.x()) + along(grid.y()) + along(grid.z());
+}
+
+/// The lags of a frame's seeds; none if all weights are the same.
+std::vector<cl_int> lags_of(const SeedsFrame& frame) {
+  const Grid& grid = frame.grid;
+  double greatest = -std::numeric_limits<double>::infinity(), least = -greatest;
+  const auto each = [&](auto use) {
+    for (std::size_t id = 0; id < frame.size; ++id) {
+      if (!std::isnan(frame.given.point(grid, id).x)) use(id, (*frame.weights)[id]);
+    }
+  };
+  each([&](std::size_t, double weight) {
+    greatest = std::max(greatest, weight);
+    least = std::min(least, weight);
+  });
+  if (least >= greatest) return {};
+  const double square = square_of(grid);
+  if (square == 0) {
+    std::ostringstream text;
+    text << "weights are squares in the units of the data, and diagrams of weighted seeds need pixels that "
+            "are "
+         << (grid.is_volume() ? "cubes" : "squares") << " there; these are " << side_of(grid.x()) << " x "
+         << side_of(grid.y());
+    if (grid.is_volume()) text << " x " << side_of(grid.z());
+    throw Error(text.str() + (grid.is_spaced() ? ", and spaced" : ""));
+  }
+  constexpr double unit = 1 << LAG_BITS, most = std::numeric_limits<cl_int>::max();
+  std::vector<cl_int> lags(frame.size, 0);
+  each([&](std::size_t id, double weight) {
+    const double lag = std::nearbyint((greatest - weight) / square * unit);
+    // A seed that is so far behind owns no pixel.
+    if (lag > most && (frame.outside > 0 || most_distance(grid) * unit >= most)) {
+      throw Error("the weight of seed " + std::to_string(id) + " lies " + std::to_string(lag / unit) +
+                  " squared pixels below the greatest one; in a grid of " + size_text(grid) +
+                  " weights may differ by at most " + std::to_string(1 << (31 - LAG_BITS)));
+    }
+    lags[id] = static_cast<cl_int>(std::min(lag, most));
+  });
+  return lags;
+}
+
+}  // namespace
 
 std::shared_ptr<Placements> no_placements() { return std::make_shared<Placements>(); }
 
@@ -279,6 +347,16 @@ std::shared_ptr<const std::vector<Place>> SeedsFrame::places() const {
   });
 }
 
+std::shared_ptr<const Lags> SeedsFrame::lags() const {
+  if (!weights) return nullptr;
+  const std::shared_ptr<const Lags> made = placements->lags.get([this] {
+    Lags lags{lags_of(*this), {}};
+    if (!lags.of_seeds.empty()) lags.there = allocate_with(device, lags.of_seeds, "the weights");
+    return std::make_shared<const Lags>(std::move(lags));
+  });
+  return made->of_seeds.empty() ? nullptr : made;
+}
+
 std::shared_ptr<const GlobeSeeds> SeedsFrame::on_globe() const {
   return placements->on_globe.get([this] { return seeds_on_globe(*this); });
 }
@@ -294,8 +372,13 @@ std::shared_ptr<const PointPlacement> SeedsFrame::place_points_in(const Window& 
   return placements->of_points.get(window, shown, [&] {
     return whole && whole->places && kernels_go_round(window, shown)
                ? placed_points(window, shown, *whole->places, size)
-               : place_points(device, window, shown, *places(), are_points);
+               : place_points(device, window, shown, *places(), are_points, lags().get());
   });
+}
+
+void refuse_weights(const SeedsFrame& frame, const std::string& what) {
+  if (frame.lags())
+    throw Error("the seeds have weights, which " + what + " does not know; exact diagrams do");
 }
 
 void refuse_seeds_beyond(const Placement& placement, const SeedsFrame& frame, const char* what) {

@@ -6,6 +6,7 @@
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "core/placement.hpp"
@@ -63,6 +64,12 @@ struct Way {
 struct Marks;
 struct GlobeSeeds;
 
+/// What weights are to diagrams: by id, how far each lies below the greatest one, in 2^-11 squared pixels.
+struct Lags {
+  std::vector<cl_int> of_seeds;
+  cl::Buffer there;  // the same on the device
+};
+
 /// The placements of a frame in windows that were asked for.
 class Placements;
 
@@ -92,6 +99,8 @@ struct SeedsFrame {
   /// The marks whose numbers are the ids; null unless the seeds were made from a mask.
   std::shared_ptr<const Marks> marks = nullptr;
 
+  std::shared_ptr<const std::vector<double>> weights = nullptr;  // by id; null: none were given
+
   /// Whether its points are not snapped: an engine may do that.
   bool is_off_centre = false;
 
@@ -116,6 +125,9 @@ struct SeedsFrame {
   /// The same as places, where `are_points` or the frame goes beyond the window.
   std::shared_ptr<const PointPlacement> place_points_in(const Window& window, const PixelGrid& shown) const;
 
+  /// Null without weights, and if all are the same. Throws Error if diagrams cannot take them.
+  std::shared_ptr<const Lags> lags() const;
+
   /// The seeds on the globe: see globe/globe.hpp.
   std::shared_ptr<const GlobeSeeds> on_globe() const;
 
@@ -138,6 +150,9 @@ struct SeedsFrame {
 };
 
 std::shared_ptr<Placements> no_placements();
+
+/// Throws Error if the seeds have weights, for something ("jump flooding") that does not know them.
+void refuse_weights(const SeedsFrame& frame, const std::string& what);
 
 /// Adds the places of points on the host to a list. Those that count have been checked.
 void add_places(const Grid& grid, const GivenPoints& points, std::size_t count, Snap snap,

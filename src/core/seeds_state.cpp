@@ -22,6 +22,12 @@ void check_count(std::size_t count) {
   }
 }
 
+void check_weight(const Points& points, std::size_t id) {
+  if (points.weights() == nullptr || std::isfinite(points.weights()[id])) return;
+  throw Error("the weight of seed " + std::to_string(id) + " is " + std::to_string(points.weights()[id]) +
+              "; weights must be finite");
+}
+
 int coordinates_of(const PointBuffer& points) {
   return points.format == PointFormat::floats_xyz || points.format == PointFormat::doubles_xyz ? 3 : 2;
 }
@@ -145,6 +151,10 @@ void SeedsState::place(const Grid& grid, const Points& points) {
   if (grid.depth() > 1 && !points.have_z() && points.size() > 0) {
     throw Error("the grid is a volume, and the points have no z");
   }
+  if (frame_->weights && points.weights() == nullptr) {
+    throw Error(
+        "the seeds have weights, and the points that they shall move to have none; give each a weight");
+  }
   const Snapping snapping(grid, options.outside);
   const std::shared_ptr<std::vector<double>> numbers = numbers_.take();
   const GivenPoints given = {numbers, points.have_z() ? 3 : 2};
@@ -161,6 +171,7 @@ void SeedsState::place(const Grid& grid, const Points& points) {
       to[0] = point.x;
       to[1] = point.y;
       if (given.dimensions > 2) to[2] = point.z;
+      check_weight(points, id);
     }
     beyond += where == Snapping::Where::outside ? 1 : 0;
     if (where != Snapping::Where::absent) continue;
@@ -173,6 +184,10 @@ void SeedsState::place(const Grid& grid, const Points& points) {
   next.absent = absent;
   next.outside = beyond;
   next.given = given;
+  if (points.weights() != nullptr) {
+    next.weights =
+        std::make_shared<const std::vector<double>>(points.weights(), points.weights() + points.size());
+  }
   next.is_off_centre = options.snap == Snap::none;
   // The host looks whether voxels are crowded.
   if (beyond == 0 && (next.is_off_centre || !has_voxels(grid)) && kernels_place(device, grid)) {
@@ -261,6 +276,7 @@ void SeedsState::place(const Grid& grid, std::shared_ptr<const std::vector<Place
 
 void SeedsState::place(const PointBuffer& points) {
   check_buffers(device, points);
+  if (frame_->weights) throw Error("the seeds have weights, and points in buffers have none");
   const bool is_marked = points.present() != nullptr;
   const int dimensions = coordinates_of(points);
   if (grid().is_volume() && dimensions == 2 && points.count > 0)
@@ -334,6 +350,7 @@ std::shared_ptr<cl::Buffer> SeedsState::room_for_positions(std::size_t count) {
 
 std::shared_ptr<cl::Buffer> SeedsState::copy_to_move(const char* what) {
   const PixelGrid pixels{Window(grid())};
+  refuse_weights(*frame_, what);
   const std::shared_ptr<const Placement> placement = frame_->place_in(grid(), pixels);
   refuse_seeds_beyond(*placement, *frame_, what);
   std::shared_ptr<cl::Buffer> positions = room_for_positions(size());

@@ -113,7 +113,8 @@ void each_place(const Region& region, const Images& images, const Place& seed, U
 /// Rules out places that own no pixel of the region. Whatever is nearer at the region's four corners is
 /// nearer at all its pixels (docs/exact.md says why). Along the region's rim stand witnesses:
 /// the places nearest to each stretch of it, and one more in the middle. A place is held against that and the
-/// witness of the stretch that it is nearest to.
+/// witness of the stretch that it is nearest to. Lags, in the squares of the places' unit, are for the
+/// Euclidean metric.
 class Rim {
  public:
   explicit Rim(const Region& region) : region_(region) {
@@ -122,17 +123,17 @@ class Rim {
     witnesses_.resize(4 * stretches_of_side);
   }
 
-  void add(const Place& place) {
+  void add(const Place& place, double lag = 0) {
     std::optional<Witness>& witness = witnesses_[stretch_of(place)];
     const std::int64_t away = distance_to_rim(place);
-    if (!witness || away < witness->away) witness = Witness{place, away};
+    if (!witness || away < witness->away) witness = Witness{place, away, lag};
     const std::int64_t to_middle = distance_to_middle(place);
-    if (!middle_ || to_middle < middle_->away) middle_ = Witness{place, to_middle};
+    if (!middle_ || to_middle < middle_->away) middle_ = Witness{place, to_middle, lag};
   }
 
-  bool rules_out(const Place& place) const {
+  bool rules_out(const Place& place, double lag = 0) const {
     const std::optional<Witness>& witness = witnesses_[stretch_of(place)];
-    return (witness && is_nearer(witness->place, place)) || (middle_ && is_nearer(middle_->place, place));
+    return (witness && is_nearer(*witness, place, lag)) || (middle_ && is_nearer(*middle_, place, lag));
   }
 
  private:
@@ -140,6 +141,7 @@ class Rim {
   struct Witness {
     Place place;
     std::int64_t away;
+    double lag;
   };
 
   /// The distances to the four sides, negative inside the region.
@@ -168,14 +170,15 @@ class Rim {
     return static_cast<std::size_t>(side * stretches_of_side + (at >> shift_));
   }
 
-  /// Whether a place is nearer than another one at all corners, by both metrics.
-  bool is_nearer(const Place& place, const Place& other) const {
+  /// Whether a witness is nearer than a place at all corners, by both metrics.
+  bool is_nearer(const Witness& witness, const Place& other, double lag) const {
+    const Place& place = witness.place;
     for (const std::int64_t x : {region_.left, region_.right}) {
       for (const std::int64_t y : {region_.top, region_.bottom}) {
         const std::int64_t dx = std::abs(place.x - x), dy = std::abs(place.y - y);
         const std::int64_t other_dx = std::abs(other.x - x), other_dy = std::abs(other.y - y);
         if (dx + dy >= other_dx + other_dy) return false;
-        if (squares(dx, dy) >= squares(other_dx, other_dy) * below_one) return false;
+        if (squares(dx, dy) + witness.lag >= (squares(other_dx, other_dy) + lag) * below_one) return false;
       }
     }
     return true;

@@ -16,8 +16,8 @@ static_assert(fractions_of_pixel == 1 << MOST_FRACTION_BITS);
 
 /// The engine's working memory.
 struct PlacesWorkspace {
-  cl::Buffer counts, ends, sorted;  // while the index is made
-  cl::Buffer starts, x, y, z, ids;  // the index (kernels/exact/bins.cl)
+  cl::Buffer counts, ends, sorted;        // while the index is made
+  cl::Buffer starts, x, y, z, ids, lags;  // the index (kernels/exact/bins.cl)
 };
 
 /// What is labelled: places with their images, or seeds at the centres of the grid's pixels.
@@ -102,14 +102,20 @@ Report exact_diagram_by_places(Filling& filling, DiagramState& state) {
   const cl_int4 size = {{grid.width(), grid.height(), grid.depth(), 0}}, bits = bits_of_bins(grid, count);
   const std::size_t rows = along(grid.height(), bits.s[1]) * along(grid.depth(), bits.s[2]);
   const std::size_t entries = rows * (along(grid.width(), bits.s[0]) + 1), room = count + BEHIND_PLACES;
-  auto& [counts, ends, sorted, starts, x, y, z, ids] = state.workspace<PlacesWorkspace>();
+  auto& [counts, ends, sorted, starts, x, y, z, ids, lags] = state.workspace<PlacesWorkspace>();
   state.reserve(starts, (entries + 1) * word);
   for (cl::Buffer* const list : {&x, &y, &ids}) state.reserve(*list, room * word);
   if (grid.is_volume()) state.reserve(z, room * word);
+  const std::shared_ptr<const Lags> weighted = filling.seeds().lags();
+  if (weighted) state.reserve(lags, room * word);
+  // Kernels do not look at what there is not.
+  const cl::Buffer &of_lags = weighted ? lags : ids, &of_seeds = weighted ? weighted->there : ids,
+                   &of_z = grid.is_volume() ? z : x;
 
   const bool by_pixels = device.tuning().shape == Shape::group;
   KernelOptions options{filling.metric()};
   if (filling.takes_places()) options.extent = Extent::fractions;
+  options.weighted = weighted != nullptr;
   const auto kernel = [&, &of_grid = grid](const char* name, std::size_t items_of_group) -> Kernel& {
     return state.kernels
         .get(device, by_pixels ? "exact/pixels.cl" : "exact/diagram.cl", name, of_grid, options)
@@ -122,11 +128,12 @@ Report exact_diagram_by_places(Filling& filling, DiagramState& state) {
     kernel("count_places", group).over_items(items_of_places, given, count, bits, size, starts);
     kernel("start_bins", std::min<std::size_t>(group, 8)).over_items(rows, starts, bits, size);
     kernel("list_places", group)
-        .over_items(items_of_places, given, given_ids, has_ids, count, bits, size, starts, x, y, ids);
-    kernel("drop_repeats", 1).over_items(rows, starts, bits, size, x, y, ids);
+        .over_items(items_of_places, given, given_ids, has_ids, count, bits, size, of_seeds, starts, x, y,
+                    ids, of_lags);
+    kernel("drop_repeats", 1).over_items(rows, starts, bits, size, x, y, ids, of_lags);
     const cl::Event end = kernel("label_pixels", group)
-                              .over_items(grid.pixels(), starts, x, y, ids, order, has_ids, bits, size, first,
-                                          last, state.labels);
+                              .over_items(grid.pixels(), starts, x, y, ids, of_lags, order, has_ids, bits,
+                                          size, first, last, state.labels);
     return filling.commit(0, begin, end);
   }
   const std::size_t chunks = chunks_of(count);
@@ -142,15 +149,15 @@ Report exact_diagram_by_places(Filling& filling, DiagramState& state) {
   kernel("sum_chunks", 1).over_items(1, chunk_count, counts, ends);
   kernel("sort_chunks", 1)
       .over_items(chunks, given, given_ids, has_ids, count, chunk_count, bits, size, shift, counts, sorted);
-  const cl::Buffer& of_z = grid.is_volume() ? z : x;
-  kernel("sort_buckets", 1).over_items(BUCKETS, sorted, bits, size, shift, ends, starts, x, y, of_z, ids);
+  kernel("sort_buckets", 1)
+      .over_items(BUCKETS, sorted, bits, size, shift, ends, of_seeds, starts, x, y, of_z, ids, of_lags);
   const int side = grid.is_volume() ? SIDE_OF_VOLUME : SIDE_OF_PLANE;
   const auto items_along = [side](int pixels) { return static_cast<std::size_t>(pixels - 1) / side + 1; };
   const std::size_t items =
       items_along(grid.width()) * items_along(grid.height()) * items_along(grid.depth());
-  const cl::Event end =
-      kernel("label_regions", 1)
-          .over_items(items, starts, x, y, of_z, ids, order, has_ids, bits, size, first, last, state.labels);
+  const cl::Event end = kernel("label_regions", 1)
+                            .over_items(items, starts, x, y, of_z, ids, of_lags, order, has_ids, bits, size,
+                                        first, last, state.labels);
   return filling.commit(0, begin, end);
 }
 

@@ -7,6 +7,7 @@
 #include <tuple>
 #include <variant>
 
+#include "core/seeds_state.hpp"
 #include "exact_cells/sites.hpp"
 #include "measures/measurement.hpp"
 #include "runtime/buffer.hpp"
@@ -514,24 +515,7 @@ ExactCellsCheck ExactCellsResult::check() const {
   return found;
 }
 
-namespace {
-
-void check_weights(const std::vector<double>& weights, const std::vector<std::optional<Point>>& points) {
-  if (weights.empty()) return;
-  if (weights.size() != points.size()) {
-    throw Error(std::to_string(weights.size()) + " weights are not one for each of " +
-                std::to_string(points.size()) + " seeds");
-  }
-  for (std::size_t id = 0; id < points.size(); ++id) {
-    if (!points[id] || std::isfinite(weights[id])) continue;
-    throw Error("the weight of seed " + std::to_string(id) + " is " + std::to_string(weights[id]) +
-                "; weights must be finite");
-  }
-}
-
-}  // namespace
-
-Report exact_cells(const Seeds& seeds, ExactCellsResult& result, const ExactCellsOptions& options) {
+Report exact_cells(const Seeds& seeds, ExactCellsResult& result) {
   const Grid& grid = seeds.grid();
   if (grid.is_spaced()) throw Error("the grid has an axis that is spaced, which exact cells cannot take");
   const Stopwatch stopwatch;
@@ -541,11 +525,12 @@ Report exact_cells(const Seeds& seeds, ExactCellsResult& result, const ExactCell
   const Device& device = seeds.device();
   require_doubles(device);
   const std::vector<std::optional<Point>> points = seeds.read();
-  check_weights(options.weights, points);
+  const std::shared_ptr<const std::vector<double>> given = Internal::state(seeds).frame()->weights;
+  const std::vector<double> weights = given ? *given : std::vector<double>();
   state.cells = points.size();
   const auto [first, last] = grid.is_volume()
-                                 ? state.start(device, sites_of<VolumeSites>(grid, points, options.weights))
-                                 : state.start(device, sites_of<PlaneSites>(grid, points, options.weights));
+                                 ? state.start(device, sites_of<VolumeSites>(grid, points, weights))
+                                 : state.start(device, sites_of<PlaneSites>(grid, points, weights));
   check(clFlush(device.queue()()), "starting a measurement");
   state.is_made = true;
   return Internal::report(0, first, last, stopwatch.milliseconds(), first_launches.take());

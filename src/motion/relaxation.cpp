@@ -174,6 +174,7 @@ Relaxation relax(Seeds& seeds, Diagram& diagram, const Simulation::Engine& engin
                 " pixels; it must be above 0");
   }
   if (!engine) throw Error("a relaxation needs an engine that fills the diagram");
+  refuse_weights(*Internal::state(seeds).frame(), "Lloyd relaxation");
   if (options.exact && !options.density.empty()) {
     throw Error("an exact relaxation takes no density, which weighs pixels; leave one of them out");
   }

@@ -295,6 +295,7 @@ void SharedSeeds::add(const PlaneSeed* seeds, std::size_t count) {
 }
 
 void SharedSeeds::add(const Points& points, std::uint64_t first) {
+  if (points.weights() != nullptr) throw Error("tiles know no weights of points; diagrams of the whole do");
   const Snapping snapping(state_->grid, Outside::count);
   std::vector<PlaneSeed> seeds;
   seeds.reserve(points.size());

@@ -45,7 +45,7 @@ std::string build_options(int vector_width, const PixelGrid& grid, const KernelO
                                                         : " -DVOROCL_NEIGHBOURS=5") +
          (options.extent >= Extent::far ? " -DVOROCL_FAR" : "") +
          (options.extent == Extent::fractions ? " -DVOROCL_FRACTIONS" : "") +
-         (grid.periodic_x() ? " -DVOROCL_PERIODIC_X" : "") +
+         (options.weighted ? " -DVOROCL_WEIGHTED" : "") + (grid.periodic_x() ? " -DVOROCL_PERIODIC_X" : "") +
          (grid.periodic_y() ? " -DVOROCL_PERIODIC_Y" : "") +
          (grid.periodic_z() ? " -DVOROCL_PERIODIC_Z" : "") +
          (has_short_period(grid) ? " -DVOROCL_SHORT_PERIOD" : "") + bits_of_volume(grid) +

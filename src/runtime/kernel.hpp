@@ -30,9 +30,11 @@ struct KernelOptions {
   Metric metric = Metric::euclidean;
   Neighbourhood neighbourhood = Neighbourhood::moore;
   Extent extent = Extent::grid;
+  bool weighted = false;  // of exact diagrams: see kernels/exact/place.cl
 
   friend bool operator==(const KernelOptions& a, const KernelOptions& b) {
-    return a.metric == b.metric && a.neighbourhood == b.neighbourhood && a.extent == b.extent;
+    return a.metric == b.metric && a.neighbourhood == b.neighbourhood && a.extent == b.extent &&
+           a.weighted == b.weighted;
   }
 };
 

@@ -39,6 +39,7 @@ PlaneSeedsState& PlaneSeeds::state() const {
 void PlaneSeeds::reserve(std::size_t count) { state().tree.reserve(count); }
 
 void PlaneSeeds::add(const Points& points) {
+  if (points.weights() != nullptr) throw Error("tiles know no weights of points; diagrams of the whole do");
   PlaneSeedsState& seeds = state();
   seeds.add([&] {
     if (points.size() > most_ids - seeds.id_end)

@@ -270,10 +270,37 @@ BOOST_AUTO_TEST_CASE(weights_and_radii_come_from_a_column) {
           {"text.csv", "kind", "\"A\""});
   refuses(folder, "cells --exact --random 9 --size 8x8 --weights w --cells c.csv", usage,
           {"--weights", "--points"});
-  refuses(folder, "cells --points p.csv --width 9 --weights w --cells c.csv", usage,
-          {"--weights requires --exact"});
-  refuses(folder, "simulate --trajectory t.dump --width 9 --radius r --cells c.csv", usage,
-          {"--radius requires --exact"});
+  // The same of diagrams, whose voxels at a bisector are of the first seed.
+  const std::string three = "cells --points p.csv --columns x,y,z --bounds 0,0,0,4,2,2 --size 32x16x16 ";
+  succeeds(folder, three + "--weights w" + cells + "id,volume");
+  BOOST_TEST(content_of(folder / "c.csv") == "id,volume\n0,9\n1,7\n2,0\n");
+  const std::string two = "--points p.csv --columns x,y --bounds 0,0,4,2 --width 32 ";
+  succeeds(folder, "cells " + two + "--radius r" + cells + "id,area");
+  BOOST_TEST(content_of(folder / "c.csv") == "id,area\n0,4\n1,3.25\n2,0.75\n");
+  succeeds(folder, "simulate --trajectory t.dump --size 16x16x16 --periodic xyz --radius radius" + cells +
+                       "id,volume");
+  BOOST_TEST(content_of(folder / "c.csv") ==
+             "frame,timestep,id,volume\n0,0,1,40\n0,0,2,24\n1,0,1,40\n1,0,2,24\n");
+  const std::string flat = "simulate --trajectory t.dump --bounds 0,0,4,4 --width 16 --periodic none ";
+  BOOST_TEST(run(folder, flat + "--radius radius" + cells + "id,area").exit_code == 0);  // z is left out
+  BOOST_TEST(content_of(folder / "c.csv") == "frame,timestep,id,area\n0,0,1,9\n0,0,2,7\n1,0,1,9\n1,0,2,7\n");
+  for (const std::string weights : {"--weights w ", "--radius r "}) {
+    const std::string name = weights.substr(0, weights.find(' '));
+    refuses(folder, "cells " + two + weights + "--method jfa --cells c.csv", usage, {"jfa", name});
+    refuses(folder, "cells " + two + weights + "--metric great-circle --cells c.csv", usage,
+            {"great-circle", name});
+    refuses(folder, "render " + two + weights + "--color column:x -o p.png", usage, {"--color", name});
+    refuses(folder, "cells " + two + weights + "--metric manhattan --cells c.csv", failure,
+            {"weights", "Euclidean"});
+    refuses(folder, "cells " + two + weights + "--snap --cells c.csv", failure, {"weights", "snapped"});
+  }
+  refuses(folder, "cells --points p.csv --columns x,y --bounds 0,0,4,2 --size 9x9 --weights w --cells c.csv",
+          failure, {"p.csv", "squares", "--width"});
+  refuses(folder,
+          "cells --points p.csv --columns x,y,z --bounds 0,0,0,4,2,2 --size 8x8x8 --weights w --cells c.csv",
+          failure, {"cubes"});
+  refuses(folder, "simulate --random 9 --size 9x9 --radius r --frames 1 --step-length 1 --labels l%d.npy",
+          usage, {"--radius", "--trajectory"});
 }
 
 BOOST_AUTO_TEST_CASE(a_plane_is_cut_where_the_line_says_so) {

@@ -21,6 +21,7 @@
 #include "true_positions.hpp"
 #include "volume_points.hpp"
 #include "vorocl/vorocl.hpp"
+#include "weights.hpp"
 
 using namespace vorocl;
 
@@ -180,7 +181,17 @@ void make_diagrams_of_points(const Device& device, Metric metric) {
     distance_field(diagram, distances);
     distance_errors(diagram, by_short_lists, errors);
     device.finish();
-    if (window.is_whole() && metric == Metric::euclidean) relax_by_weights(seeds, diagram);
+    if (metric != Metric::euclidean) continue;
+    if (window.is_whole()) relax_by_weights(seeds, diagram);
+    const std::vector<double> weights = weights_of(points.size(), 40);
+    const Seeds weighted(device, window.grid(), Points(points).weighted(weights.data()));
+    const Labels power =
+        labels_by_definition(window, positions_of(window.grid(), {points.begin(), points.end()}), metric,
+                             lags_by_definition(weights, [](std::size_t) { return true; }));
+    for (Diagram* const each : {&diagram, &by_short_lists}) {
+      exact_diagram(weighted, *each);
+      expect(each->read(), power, "weighted points");
+    }
   }
 }
 
@@ -270,18 +281,32 @@ void make_volumes_of_points(const Device& device) {
           seeds.push_back(
               {x / 2 + away(flat * std::cos(angle)), y / 2 + away(flat * std::sin(angle)), z / 2 + away(u)});
       }
-      Labels expected;
-      for (std::int64_t i = 0; i < static_cast<std::int64_t>(grid.pixels()); ++i) {
-        expected.push_back(label_by_definition(
-            grid, seeds,
-            {i % grid.width(), i / grid.width() % grid.height(), i / grid.width() / grid.height()}));
-      }
+      const auto labels_by = [&](const std::vector<std::int64_t>& lags) {
+        Labels labels;
+        for (std::int64_t i = 0; i < static_cast<std::int64_t>(grid.pixels()); ++i) {
+          labels.push_back(label_by_definition(
+              grid, seeds,
+              {i % grid.width(), i / grid.width() % grid.height(), i / grid.width() / grid.height()}, lags));
+        }
+        return labels;
+      };
+      const Labels expected = labels_by({});
       const Seeds points(device, grid, points_at(seeds));
       Diagram diagram(device, grid), by_short_lists(with_lists(device, ListLength::two_entries), grid);
       exact_diagram(points, by_short_lists);
       exact_diagram(points, diagram);
       expect(by_short_lists.read(), expected, "points in volumes by short lists");
       expect(diagram.read(), expected, "points in volumes");
+      if (kind == 1 && !grid.is_spaced()) {
+        const std::vector<double> weights = weights_of(seeds.size(), 20);
+        const auto lags = lags_by_definition(weights, [](std::size_t) { return true; });
+        const Labels power = labels_by(lags);
+        const std::vector<Point> at = points_at(seeds);
+        for (Diagram* const each : {&diagram, &by_short_lists}) {
+          exact_diagram(Seeds(device, grid, Points(at).weighted(weights.data())), *each);
+          expect(each->read(), power, "weighted points in volumes");
+        }
+      }
       if (kind != 0) continue;
       Field<float> distances;
       DistanceErrorsResult errors;

@@ -148,11 +148,13 @@ static void test_volume(const vorocl_device* device) {
   vorocl_exact_polyhedra_free(polyhedra);
   vorocl_exact_polyhedra_free(NULL);
   /* With weights their bisectors are (4 + 1 - 1 / 4) / 4 from the first one. */
-  OK(vorocl_exact_cells_cut_weighted(all, seeds, weights, 2));
+  OK(vorocl_seeds_move_to_weighted_points(seeds, NULL, two, weights, NULL, 2));
+  OK(vorocl_exact_cells_cut(all, seeds));
   OK(vorocl_exact_cells_read(all, cells, 2));
   CHECK(cells[0].area == 9.5 && cells[1].area == 6.5);
-  FAILS(vorocl_exact_cells_cut_weighted(all, seeds, weights, 1), VOROCL_BAD_ARGUMENT, "weights");
-  FAILS(vorocl_exact_cells_cut_weighted(all, seeds, NULL, 2), VOROCL_NULL_ARGUMENT, "weights is NULL");
+  FAILS(vorocl_seeds_move_to(seeds, two, NULL, 2), VOROCL_BAD_ARGUMENT, "weight");
+  FAILS(vorocl_seeds_move_to_weighted_points(seeds, &box, two, NULL, NULL, 2), VOROCL_NULL_ARGUMENT,
+        "weights is NULL");
   vorocl_exact_cells_free(all);
   vorocl_seeds_free(seeds);
 }

@@ -63,6 +63,22 @@ static void test_seeds(const vorocl_device* device) {
   vorocl_seeds_free(seeds);
   CHECK(has_labels(diagram, nearest));
 
+  /* Weights of radii move the border of two cells: to (36 + 9 - 1) / 12 from the first one. */
+  {
+    const vorocl_point two[2] = {{1, 2.5, 0}, {7, 2.5, 0}};
+    const double weights[2] = {9, 1};
+    const vorocl_grid plane = vorocl_grid_of_pixels(width, height, VOROCL_PERIODIC_NONE);
+    OK(vorocl_seeds_from_weighted_points(device, plane, two, weights, NULL, 2, VOROCL_OUTSIDE_COUNTS,
+                                         VOROCL_SNAP_NONE, &seeds));
+    OK(run("exact", seeds, diagram, VOROCL_EUCLIDEAN));
+    for (int i = 0; i < pixels; ++i) nearest[i] = i % width + 0.5 > 1 + 44. / 12;
+    CHECK(has_labels(diagram, nearest));
+    vorocl_seeds_free(seeds);
+    FAILS(vorocl_seeds_from_weighted_points(device, plane, two, NULL, NULL, 2, VOROCL_OUTSIDE_COUNTS,
+                                            VOROCL_SNAP_NONE, &seeds),
+          VOROCL_NULL_ARGUMENT, "weights is NULL");
+  }
+
   /* A mask's pixels are seeds in row-major order. */
   mask[2] = 1;
   mask[width] = 200;

@@ -71,8 +71,9 @@ std::vector<Point> points_of(const std::vector<Position>& positions) {
 
 ExactCellsResult cells_of(const Set& set, Axes periodic) {
   ExactCellsResult result;
-  exact_cells(Seeds(test_device(), grid_of(set, periodic), points_of(set.positions), to_centres), result,
-              {set.weights});
+  const std::vector<Point> points = points_of(set.positions);
+  const Points weighted = Points(points).weighted(set.weights.empty() ? nullptr : set.weights.data());
+  exact_cells(Seeds(test_device(), grid_of(set, periodic), weighted, to_centres), result);
   return result;
 }
 

@@ -73,8 +73,9 @@ std::vector<Point> points_of(const std::vector<Position>& positions) {
 
 ExactCellsResult cells_of(const Set& set, Axes periodic, const Device& device = test_device()) {
   ExactCellsResult result;
-  exact_cells(Seeds(device, grid_of(set.sides, periodic, set.tilts), points_of(set.positions)), result,
-              {set.weights});
+  const std::vector<Point> points = points_of(set.positions);
+  const Points weighted = Points(points).weighted(set.weights.empty() ? nullptr : set.weights.data());
+  exact_cells(Seeds(device, grid_of(set.sides, periodic, set.tilts), weighted), result);
   return result;
 }
 
@@ -699,14 +700,13 @@ BOOST_AUTO_TEST_CASE(equal_weights_change_nothing_and_bad_ones_are_refused) {
     BOOST_TEST(cells[id].area == same[id].area);
     BOOST_TEST(cells[id].centroid.x == same[id].centroid.x);
   }
-  set.weights.pop_back();
-  check_error([&] { cells_of(set, Axes::xyz); }, {"199 weights", "200 seeds"});
-  set.weights.push_back(std::numeric_limits<double>::quiet_NaN());
+  set.weights.back() = std::numeric_limits<double>::quiet_NaN();
   check_error([&] { cells_of(set, Axes::xyz); }, {"seed 199", "nan", "finite"});
   // Of absent seeds they are not looked at.
   std::vector<std::optional<Point>> points = {Point{1, 1, 1}, std::nullopt, Point{3, 1, 1}};
+  const std::vector<double> weights = {0, std::nan(""), 2};
   ExactCellsResult result;
-  exact_cells(Seeds(test_device(), Grid(4, 2, 2), points), result, {{0, std::nan(""), 2}});
+  exact_cells(Seeds(test_device(), Grid(4, 2, 2), Points(points).weighted(weights.data())), result);
   const std::vector<ExactCell> three = result.read();
   BOOST_TEST(three[0].area == 1.5 * 4);  // (4 - 2) / (2 * 2) from the first one
   BOOST_TEST(three[2].area == 2.5 * 4);

@@ -18,6 +18,7 @@
 #include "vorocl/motion.hpp"
 #include "vorocl/relaxation.hpp"
 #include "vorocl/tiles.hpp"
+#include "weights.hpp"
 #include "window_cases.hpp"
 
 using namespace vorocl;
@@ -78,8 +79,9 @@ bool is_labelled(std::int64_t at, std::int64_t length, std::int64_t period) {
   return length <= period || (at >= 0 && at < period);
 }
 
+/// `lags`, which are added to distances: none, or by id.
 Labels labels_by_definition(const TiltedBox& box, const Window& window, const std::vector<Position>& seeds,
-                            Metric metric) {
+                            Metric metric, const std::vector<std::int64_t>& lags = {}) {
   Labels labels;
   for (std::int64_t y = window.y(); y < window.y() + window.height(); ++y) {
     for (std::int64_t x = window.x(); x < window.x() + window.width(); ++x) {
@@ -88,7 +90,7 @@ Labels labels_by_definition(const TiltedBox& box, const Window& window, const st
       if (is_labelled(x, window.width(), box.width) && is_labelled(y, window.height(), box.height)) {
         for (std::uint32_t id = 0; id < seeds.size(); ++id) {
           const Position way = box.way(seeds[id], centre_of(x, y), metric);
-          const Wide distance = box.distance(way.x, way.y, metric);
+          const Wide distance = box.distance(way.x, way.y, metric) + (lags.empty() ? 0 : lags[id]);
           if (best == no_label || distance < least || (distance == least && seeds[id] < seeds[best])) {
             best = id;
             least = distance;
@@ -189,6 +191,24 @@ BOOST_AUTO_TEST_CASE(labels_are_those_of_all_images) {
         diagram.read(), labels_by_definition(random.box, *random.window, random.seeds, metric));
     BOOST_TEST(wrong == 0u, text_of(random, number) << ", " << engine.name << ", " << name_of(metric) << ": "
                                                     << wrong << " wrong");
+  }
+}
+
+BOOST_AUTO_TEST_CASE(labels_are_those_of_the_weights_of_all_images) {
+  for (unsigned number = 0; number < (long_tests ? 20000 : 400); ++number) {
+    RandomCase random(number);
+    if (random.snap == Snap::to_pixels) continue;
+    const std::vector<double> weights = hard_weights(random.points.size(), 8, random.rng);
+    const Engine& engine = long_tests ? engines()[number % engines().size()]
+                                      : engine_for(*random.window, Metric::euclidean, number);
+    Diagram diagram(engine.device, *random.window);
+    exact_diagram(Seeds(engine.device, random.box.grid(), Points(random.points).weighted(weights.data())),
+                  diagram);
+    const auto lags = lags_by_definition(weights, [](std::size_t) { return true; });
+    const Labels expected =
+        labels_by_definition(random.box, *random.window, random.seeds, Metric::euclidean, lags);
+    BOOST_TEST(count_differences(diagram.read(), expected) == 0u, text_of(random, number)
+                                                                      << ", " << engine.name);
   }
 }
 

@@ -9,6 +9,7 @@
 
 #include "true_positions.hpp"
 #include "vorocl/fields.hpp"
+#include "weights.hpp"
 #include "window_cases.hpp"
 
 using namespace vorocl;
@@ -87,9 +88,10 @@ struct RandomCase {
 };
 
 Labels labels_of(const Engine& engine, const Window& window, const std::vector<std::optional<Point>>& points,
-                 Metric metric) {
+                 Metric metric, const std::vector<double>& weights = {}) {
   Diagram diagram(engine.device, window);
-  exact_diagram(Seeds(engine.device, window.grid(), points, {Outside::count, Snap::none}), diagram, {metric});
+  const Points given = Points(points).weighted(weights.empty() ? nullptr : weights.data());
+  exact_diagram(Seeds(engine.device, window.grid(), given, {Outside::count, Snap::none}), diagram, {metric});
   return diagram.read();
 }
 
@@ -109,6 +111,92 @@ BOOST_AUTO_TEST_CASE(labels_are_those_of_the_rounded_positions) {
                                     << text_of(*random.window, random.points.size()) << ", " << engine.name
                                     << ", " << name_of(metric) << ": " << wrong << " wrong");
   }
+}
+
+BOOST_AUTO_TEST_CASE(labels_are_those_of_the_weights) {
+  const unsigned cases = long_tests ? 100000 : 2000;
+  std::size_t empty = 0;
+  for (unsigned number = 0; number < cases; ++number) {
+    RandomCase random(number);
+    const Grid& grid = *random.grid;
+    const std::size_t count = random.points.size();
+    const double side = std::sqrt(static_cast<double>(grid.pixels()) / static_cast<double>(count + 1)) + 1;
+    const std::vector<double> weights = hard_weights(count, side, random.rng);
+    const Engine& engine = long_tests ? engines()[number % engines().size()]
+                                      : engine_for(*random.window, Metric::euclidean, number);
+    const Labels labels = labels_of(engine, *random.window, random.points, Metric::euclidean, weights);
+    const auto lags = lags_by_definition(weights, [&](std::size_t id) { return bool(random.points[id]); });
+    const std::size_t wrong = count_differences(
+        labels,
+        labels_by_definition(*random.window, positions_of(grid, random.points), Metric::euclidean, lags));
+    BOOST_TEST(wrong == 0u, "case " << number << ", kind " << random.kind << ": "
+                                    << text_of(*random.window, count) << ", " << engine.name << ": " << wrong
+                                    << " wrong");
+    for (std::uint32_t id = 0; id < count; ++id)
+      empty += std::find(labels.begin(), labels.end(), id) == labels.end() ? 1 : 0;
+  }
+  BOOST_TEST(empty > cases);
+}
+
+BOOST_AUTO_TEST_CASE(weights_of_data_are_in_its_units) {
+  std::mt19937_64 rng(8);
+  const Grid pixels(90, 60, Axes::x), data(Axis(90, -1, 0.5).periodic(), Axis(60, 3, 4).reversed());
+  std::vector<Point> at, points;
+  std::vector<double> weights, of_data;
+  for (int i = 0; i < 70; ++i) {
+    at.push_back({static_cast<double>(rng() % (90 * 64)) / 64, static_cast<double>(rng() % (60 * 64)) / 64});
+    points.push_back(data.point(at.back()));
+    weights.push_back(static_cast<double>(rng() % 100));
+    of_data.push_back(5 + weights.back() / 3600);
+  }
+  Diagram of_pixels(test_device(), pixels), diagram(test_device(), data);
+  Seeds seeds(test_device(), data, Points(points).weighted(of_data.data()));
+  exact_diagram(Seeds(test_device(), pixels, Points(at).weighted(weights.data())), of_pixels);
+  exact_diagram(seeds, diagram);
+  BOOST_TEST(count_differences(diagram.read(), of_pixels.read()) == 0u);
+  // Moved, to other weights; and those that are all the same are none.
+  std::vector<double> same(70, -3);
+  seeds.move_to(Points(points).weighted(same.data()));
+  exact_diagram(seeds, diagram);
+  exact_diagram(Seeds(test_device(), pixels, at), of_pixels);
+  BOOST_TEST(count_differences(diagram.read(), of_pixels.read()) == 0u);
+  jump_flooding(seeds, diagram);
+  seeds.move_to(Points(points).weighted(of_data.data()));
+  const std::size_t heavy = 7;
+  weights.assign(70, 0);
+  weights[heavy] = 1e12;  // swallows all
+  exact_diagram(Seeds(test_device(), pixels, Points(at).weighted(weights.data())), of_pixels);
+  const Labels labels = of_pixels.read();
+  BOOST_TEST(std::count(labels.begin(), labels.end(), heavy) == 90 * 60);
+}
+
+BOOST_AUTO_TEST_CASE(what_cannot_be_weighted_is_refused) {
+  const std::vector<Point> points = {{1, 1}, {6, 5}};
+  std::vector<double> weights = {4, 1};
+  const Points weighted = Points(points).weighted(weights.data());
+  const Device& device = test_device();
+  const Grid grid(9, 8);
+  Diagram diagram(device, grid);
+  Seeds seeds(device, grid, weighted);
+  const auto says = [](const std::string& text) {
+    return [text](const Error& error) { return std::string(error.what()).find(text) != std::string::npos; };
+  };
+  BOOST_CHECK_EXCEPTION(jump_flooding(seeds, diagram), Error, says("the method jfa does not know"));
+  BOOST_CHECK_EXCEPTION(exact_diagram(seeds, diagram, {Metric::manhattan}), Error, says("not Euclidean"));
+  BOOST_CHECK_EXCEPTION(random_step(seeds, 1, Border::reflect, 1, 1), Error, says("random motion"));
+  BOOST_CHECK_EXCEPTION(seeds.move_to(points), Error, says("give each a weight"));
+  const auto label = [&](const Grid& of, const SeedsOptions& options = {}) {
+    Diagram other(device, of);
+    exact_diagram(Seeds(device, of, weighted, options), other);
+  };
+  BOOST_CHECK_EXCEPTION(label(Grid(Axis(9, 0, 9), Axis(8, 0, 9))), Error, says("are squares"));
+  BOOST_CHECK_EXCEPTION(label(Grid(Axis(9), Axis(8).spaced(2))), Error, says("spaced"));
+  BOOST_CHECK_EXCEPTION(label(Grid(7, 6), to_centres), Error, says("snapped to pixels"));
+  weights[1] = std::nan("");
+  BOOST_CHECK_EXCEPTION(Seeds(device, grid, weighted), Error, says("the weight of seed 1 is nan"));
+  weights[1] = -2e6;
+  label(grid);
+  BOOST_CHECK_EXCEPTION(label(Grid(2000, 8)), Error, says("may differ by at most 1048576"));
 }
 
 BOOST_AUTO_TEST_CASE(many_points_in_tiles_of_all_densities) {
@@ -134,6 +222,14 @@ BOOST_AUTO_TEST_CASE(many_points_in_tiles_of_all_densities) {
       BOOST_TEST(count_differences(cut, expected) == 0u, count << " points, " << engine.name);
       BOOST_TEST(count_differences(labels_of(engine, part, points, Metric::euclidean), expected) == 0u,
                  count << " points in a window, " << engine.name);
+    }
+    const std::vector<double> weights = hard_weights(count, 250 / std::sqrt(static_cast<double>(count)), rng);
+    const auto lags = lags_by_definition(weights, [](std::size_t) { return true; });
+    const Labels weighted = labels_by_definition(part, positions_of(grid, points), Metric::euclidean, lags);
+    for (const Engine& engine : engines_of(Metric::euclidean)) {
+      BOOST_TEST(
+          count_differences(labels_of(engine, part, points, Metric::euclidean, weights), weighted) == 0u,
+          count << " weighted points in a window, " << engine.name);
     }
   }
 }

@@ -15,6 +15,7 @@
 #include "list_length.hpp"
 #include "runtime/pixel_grid.hpp"
 #include "volume_points.hpp"
+#include "weights.hpp"
 
 using namespace vorocl;
 
@@ -23,9 +24,12 @@ namespace {
 /// Many more cases, for minutes instead of seconds.
 const bool long_tests = std::getenv("VOROCL_LONG_TESTS") != nullptr;
 
-Labels labels_of(const Device& device, const Grid& grid, const std::vector<Spot>& seeds) {
+Labels labels_of(const Device& device, const Grid& grid, const std::vector<Spot>& seeds,
+                 const std::vector<double>& weights = {}) {
   Diagram diagram(device, grid);
-  exact_diagram(Seeds(device, grid, points_at(seeds)), diagram);
+  const std::vector<Point> points = points_at(seeds);
+  exact_diagram(Seeds(device, grid, Points(points).weighted(weights.empty() ? nullptr : weights.data())),
+                diagram);
   return diagram.read();
 }
 
@@ -121,6 +125,30 @@ BOOST_AUTO_TEST_CASE(labels_are_those_of_the_points) {
     });
     BOOST_TEST(wrong == 0u, "case " << number << ", kind " << random.kind << ": " << size_text(random.grid)
                                     << ", " << random.seeds.size() << " seeds: " << wrong << " wrong");
+  }
+}
+
+BOOST_AUTO_TEST_CASE(labels_are_those_of_the_weights) {
+  if (!can_be_exact()) return;
+  const Device short_list_device = with_lists(test_device(), ListLength::two_entries);
+  for (unsigned number = 0; number < (long_tests ? 100000 : 2000); ++number) {
+    if (number % 4 == 3) continue;  // no cubes
+    RandomCase random(number);
+    const Grid& grid = random.grid;
+    const std::size_t count = random.seeds.size();
+    const double side = std::cbrt(static_cast<double>(grid.pixels()) / static_cast<double>(count + 1)) + 1;
+    const std::vector<double> weights = hard_weights(count, side, random.rng);
+    const auto lags = lags_by_definition(weights, [](std::size_t) { return true; });
+    const bool short_lists_too = number % 4 == 1 && number % 5 == 0;
+    const Labels labels =
+        labels_of(short_lists_too ? short_list_device : test_device(), grid, random.seeds, weights);
+    std::size_t wrong = 0;
+    each_voxel(grid, [&](const Spot& voxel, std::size_t i) {
+      if (count * labels.size() > 400000 && i % 7 != number % 7) return;
+      wrong += labels[i] != label_by_definition(grid, random.seeds, voxel, lags) ? 1 : 0;
+    });
+    BOOST_TEST(wrong == 0u, "case " << number << ", kind " << random.kind << ": " << size_text(grid) << ", "
+                                    << count << " seeds: " << wrong << " wrong");
   }
 }
 

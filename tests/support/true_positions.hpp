@@ -49,8 +49,9 @@ inline bool is_labelled(const Axis& axis, std::int64_t at, std::int64_t length) 
   return !axis.is_periodic() || length <= axis.pixels() || (at >= 0 && at < axis.pixels());
 }
 
+/// `lags`, which are added to distances: none, or by id.
 inline Labels labels_by_definition(const Window& window, const std::vector<std::optional<Position>>& seeds,
-                                   Metric metric) {
+                                   Metric metric, const std::vector<std::int64_t>& lags = {}) {
   const Grid& grid = window.grid();
   Labels labels;
   for (std::int64_t y = window.y(); y < window.y() + window.height(); ++y) {
@@ -61,7 +62,7 @@ inline Labels labels_by_definition(const Window& window, const std::vector<std::
           is_labelled(grid.x(), x, window.width()) && is_labelled(grid.y(), y, window.height());
       for (std::uint32_t id = 0; shown && id < seeds.size(); ++id) {
         if (!seeds[id]) continue;
-        const Wide distance = wide_distance(grid, *seeds[id], x, y, metric);
+        const Wide distance = wide_distance(grid, *seeds[id], x, y, metric) + (lags.empty() ? 0 : lags[id]);
         if (best == no_label || distance < least || (distance == least && *seeds[id] < *seeds[best])) {
           best = id;
           least = distance;

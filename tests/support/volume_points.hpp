@@ -35,12 +35,13 @@ inline bool comes_first(const Spot& a, const Spot& b) {
   return std::tie(a[2], a[1], a[0]) < std::tie(b[2], b[1], b[0]);
 }
 
-inline std::uint32_t label_by_definition(const Grid& grid, const std::vector<Spot>& seeds,
-                                         const Spot& voxel) {
+/// `lags`, which are added to distances: none, or by id.
+inline std::uint32_t label_by_definition(const Grid& grid, const std::vector<Spot>& seeds, const Spot& voxel,
+                                         const std::vector<std::int64_t>& lags = {}) {
   std::uint32_t best = no_label;
   Wide least = 0;
   for (std::uint32_t id = 0; id < seeds.size(); ++id) {
-    const Wide distance = squared_distance(grid, seeds[id], voxel);
+    const Wide distance = squared_distance(grid, seeds[id], voxel) + (lags.empty() ? 0 : lags[id]);
     if (best != no_label && distance > least) continue;
     if (best != no_label && distance == least && !comes_first(seeds[id], seeds[best])) continue;
     best = id;

@@ -59,7 +59,7 @@ compile() { # TARGET LIBRARY FILE OPTION...
 # What programs are built for besides a plain grid: places, and periodic axes.
 more_options() { # FILE
   if [[ $1 == kernels/exact/group/diagram.cl ]]; then echo '-DVOROCL_PERIODIC_X -DVOROCL_PERIODIC_Y'; fi
-  if [[ $1 == kernels/exact/pixels.cl ]]; then printf '%s\n' -DVOROCL_FRACTIONS '-DVOROCL_FRACTIONS -DVOROCL_PERIODIC_X -DVOROCL_PERIODIC_Y'; fi
+  if [[ $1 == kernels/exact/pixels.cl ]]; then printf '%s\n' -DVOROCL_FRACTIONS '-DVOROCL_FRACTIONS -DVOROCL_PERIODIC_X -DVOROCL_PERIODIC_Y' '-DVOROCL_FRACTIONS -DVOROCL_WEIGHTED -DVOROCL_PERIODIC_X -DVOROCL_PERIODIC_Y'; fi
   if [[ $1 == kernels/measures/* ]]; then echo '-DVOROCL_DIMENSIONS=3 -DVOROCL_PERIODIC_X -DVOROCL_PERIODIC_Y -DVOROCL_PERIODIC_Z'; fi
   if [[ $1 == kernels/volumes/* ]]; then echo '-DVOROCL_PERIODIC_X -DVOROCL_PERIODIC_Y -DVOROCL_PERIODIC_Z'; fi
 }

@@ -31,6 +31,9 @@ builds_of() { # KERNEL
     return
   fi
   if [[ $kernel == kernels/exact/diagram.cl ]]; then  # planes, and Euclidean volumes, with vectors of its own
+    for places in -DVOROCL_DIMENSIONS=3 '' "$short_lists"; do  # with weights
+      echo "1 -DVOROCL_EUCLIDEAN -DVOROCL_NEIGHBOURS=9 -DVOROCL_FRACTIONS -DVOROCL_WEIGHTED -DVOROCL_PERIODIC_X $places"
+    done
     for places in '' -DVOROCL_FRACTIONS "-DVOROCL_FRACTIONS $short_lists"; do
       for axes in '' '-DVOROCL_PERIODIC_X -DVOROCL_PERIODIC_Y -DVOROCL_PERIODIC_Z' \
         '-DVOROCL_SPACING_X=2 -DVOROCL_SPACING_Y=1 -DVOROCL_SPACING_Z=4'; do
@@ -71,7 +74,8 @@ builds_of() { # KERNEL
       done
     fi
     if [[ $kernel == kernels/exact/* ]]; then  # the tests' own lists, nearly every one of which overflows
-      for metric in EUCLIDEAN MANHATTAN 'EUCLIDEAN -DVOROCL_FRACTIONS' 'MANHATTAN -DVOROCL_FRACTIONS'; do
+      for metric in EUCLIDEAN MANHATTAN 'EUCLIDEAN -DVOROCL_FRACTIONS' 'MANHATTAN -DVOROCL_FRACTIONS' \
+        'EUCLIDEAN -DVOROCL_FRACTIONS -DVOROCL_WEIGHTED'; do
         echo "$width -DVOROCL_$metric -DVOROCL_NEIGHBOURS=9 $short_lists"
       done
     fi

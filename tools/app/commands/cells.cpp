@@ -129,7 +129,7 @@ void print_exact_result(const CellsOptions& options, const Seeds& seeds, ExactCe
         fmt::format("{}", fmt::join(corners, ",")), report.milliseconds(), seeds.device().name());
   if (rows.empty_cells() > 0) {
     print("{} without a cell: another one has the same place{}\n", counted(rows.empty_cells(), "seed"),
-          rows.input().values.numbers.empty() ? "" : ", or greater weights around it have its cell");
+          options.seeds.weight_column.empty() ? "" : ", or greater weights around it have its cell");
   }
   const std::size_t outside = seeds.alive() - rows.order().size();
   if (outside > 0) print("{} outside the rectangle without a cell in it\n", counted(outside, "seed"));
@@ -170,7 +170,7 @@ void run_exact(const Command& command, const CellsOptions& options) {
   const FinishAtEnd finish(device);
   const Seeds seeds = input.place(device);
   ExactCellsResult result;
-  const Report report = exact_cells(seeds, result, {input.values.numbers});
+  const Report report = exact_cells(seeds, result);
   const auto rows = std::make_shared<ExactCellRows>(seeds, result, std::move(input), options.seeds);
   MeasureBuffers buffers;
   Measures measures(rows, buffers);
@@ -220,6 +220,7 @@ void add_cells(CommandLine& line) {
   }
   add_cell_columns_option(command, files.cells);
   add_keep_option(command, options->seeds);
+  add_weight_options(command, options->seeds);
   add_max_distance_option(command, options->max_distance);
   add_crs_option(command, options->seeds.crs, "labels and distances as .tif and polygons as .geojson say")
       .needs("--points");
@@ -229,7 +230,6 @@ void add_cells(CommandLine& line) {
       "Cut the cells as polygons, of points and particles with z as polyhedra, at the seeds' own places and "
       "without pixels: for --cells, --adjacency and --polygons, in the units of the data");
   add_file_option(command, files.polygons).needs(exact);
-  add_weight_options(command, options->seeds, exact);
   command.set_work([command, options] {
     options->seeds.on_globe = options->method_options.metric == Metric::great_circle;
     std::vector<std::string> paths;

@@ -39,7 +39,7 @@ ExactCourse make_frames(const ExactFramesOptions& options, ExactFrames& frames, 
     Progress progress;
     for (int frame = options.frames.first; input; ++frame) {
       const Seeds seeds = input->place(device);
-      const Report report = exact_cells(seeds, result, {input->values.numbers});
+      const Report report = exact_cells(seeds, result);
       const FrameFacts facts = {frame, input->timestep.value_or(frame), ""};
       const auto rows = std::make_shared<ExactCellRows>(seeds, result, std::move(*input), options.seeds);
       course.uncertified += rows->uncertified();

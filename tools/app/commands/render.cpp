@@ -165,6 +165,7 @@ void add_render(CommandLine& line) {
   Command command = line.add("render", "Make one diagram: a picture, its labels or both");
   add_seed_options(command, options->seeds, 1, false, Makes::volumes_too);
   add_frame_option(command, options->seeds);
+  add_weight_options(command, options->seeds);
   add_snap_option(command, options->seeds);
   add_units_option(command, options->seeds);
   add_method_option(command, options->method, "How to make the diagram");

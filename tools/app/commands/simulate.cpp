@@ -309,6 +309,7 @@ void add_simulate(CommandLine& line) {
                   "to within this many pixels, by --metric")
       .value_name("PIXELS")
       .needs(compare_with);
+  add_weight_options(command, options->seeds);
   add_frame_writer_options(command, options->output);
   add_slice_option(command, options->output.picture);
   add_device_option(command, options->device);
@@ -319,7 +320,6 @@ void add_simulate(CommandLine& line) {
                                    "and without pixels: for --cells, "
                                    "--adjacency and --polygons, in the units of the data");
   add_file_option(command, options->polygons, true).needs(exact);
-  add_weight_options(command, options->seeds, exact);
   command.set_work([command, options] {
     if (options->exact) return run_exact(command, *options);
     if (options->output.picture_path.empty()) refuse_picture_options(command, "-o");

@@ -45,8 +45,8 @@ void add_keep_option(Command& command, SeedOptions& options);
 /// Adds --max-distance, for the subcommands that may leave pixels without a label.
 void add_max_distance_option(Command& command, std::optional<double>& distance);
 
-/// Adds --weights and --radius, for the subcommands that cut exact cells.
-void add_weight_options(Command& command, SeedOptions& options, const Option& exact);
+/// Adds --weights and --radius, for the subcommands that make exact diagrams or cut exact cells.
+void add_weight_options(Command& command, SeedOptions& options);
 
 /// Adds --frame, for the subcommands that show one frame.
 void add_frame_option(Command& command, SeedOptions& options);

@@ -266,23 +266,24 @@ void add_keep_option(Command& command, SeedOptions& options) {
       .in_section(seed_files);
 }
 
-void add_weight_options(Command& command, SeedOptions& options, const Option& exact) {
+void add_weight_options(Command& command, SeedOptions& options) {
   const Option weights =
       command
           .add(
               "--weights", options.weight_column,
-              "Column of the CSV file or the trajectory with the weights of --exact, in squared units of the "
-              "data: a place belongs to the seed of the least squared distance less its weight (power, "
-              "Laguerre or radical cells)")
+              "Column of the CSV file or the trajectory with the weights, for the method exact and --exact, "
+              "in "
+              "squared units of the data: a place belongs to the seed of the least squared distance less its "
+              "weight (power, Laguerre or radical cells)")
           .value_name("COLUMN")
-          .needs(exact);
+          .in_section(seed_files);
   const auto set = [&options](const std::string& column) {
     options.weight_column = column;
     options.are_radii = true;
   };
   command.add("--radius", set, "The same of a column with radii, whose squares are the weights")
       .value_name("COLUMN")
-      .needs(exact)
+      .in_section(seed_files)
       .excludes(weights);
 }
 

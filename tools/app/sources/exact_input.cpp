@@ -40,8 +40,6 @@ bool is_volume(const SeedOptions& options) {
   const bool may_be_told = !options.bounds && !options.columns && !options.domain && options.mask.empty();
   const bool is_volume = is_told || (may_be_told && has_depth(options));
   is_volume ? check_volume_options(options) : check_seed_options(options, false);
-  if (!options.weight_column.empty() && options.points.empty() && options.trajectory.empty())
-    throw UsageError("--weights and --radius need --points or --trajectory");
   return is_volume;
 }
 
@@ -70,12 +68,13 @@ Grid grid_of(const SeedOptions& options, const Bounds& repeats, Axes periodic, c
 }
 
 Input input_of(const SeedOptions& options, const std::string& file, const Grid& grid,
-               std::vector<Point> points, std::vector<std::uint32_t> ids) {
+               std::vector<Point> points, std::vector<std::uint32_t> ids, const ColumnValues& values) {
   const Outside outside = grid.is_volume() ? Outside::refuse : options.outside.value_or(Outside::count);
   return {{Size(1, 1), grid},
-          [file, grid, points = std::move(points), outside](const Device& device) {
+          [file, grid, points = std::move(points), weights = weights_of(options, values, ids),
+           outside](const Device& device) {
             try {
-              return Seeds(device, grid, points, {outside});
+              return Seeds(device, grid, weighted(points, weights), {outside});
             } catch (const BadPoint& error) {
               throw Error(file + ": " + error.what());
             }
@@ -92,24 +91,6 @@ void note_points(const SeedOptions& options, const Grid& grid, const std::vector
                points.size(), {grid.x().from(), grid.y().from(), grid.x().to(), grid.y().to()});
 }
 
-/// Makes weights of the values of the column. Throws Error for one that is none.
-void make_weights(const SeedOptions& options, Input& input) {
-  const char* const what = options.are_radii ? "radius" : "weight";
-  if (!input.values.texts.empty()) {
-    throw Error(fmt::format("column {} has texts, such as \"{}\"; a {} is a number", options.weight_column,
-                            input.values.texts.front(), what));
-  }
-  for (std::size_t seed = 0; seed < input.values.numbers.size(); ++seed) {
-    double& weight = input.values.numbers[seed];
-    if (!std::isfinite(weight) || (options.are_radii && weight < 0)) {
-      throw Error(fmt::format("the {} of seed {} in column {} is {}; it must be {}", what,
-                              input.ids.empty() ? seed : input.ids[seed], options.weight_column, weight,
-                              options.are_radii ? "a number that is not negative" : "a finite number"));
-    }
-    if (options.are_radii) weight *= weight;
-  }
-}
-
 Input exact_input_from_points(const SeedOptions& options) {
   CsvPoints read = read_points(options);
   std::vector<Point>& points = read.points;
@@ -119,10 +100,10 @@ Input exact_input_from_points(const SeedOptions& options) {
                                             : widened(bounding_box(points), options.margin);
     const Grid grid = grid_of(options, repeats, options.periodic.value_or(Axes::none), "the domain");
     note_points(options, grid, points);
-    Input input = input_of(options, options.points, grid, std::move(points), std::move(read.ids));
+    Input input =
+        input_of(options, options.points, grid, std::move(points), std::move(read.ids), read.values);
     input.kept = {std::move(read.kept_names), std::move(read.kept)};
     input.values = std::move(read.values);
-    make_weights(options, input);
     return input;
   } catch (const Error& error) {
     throw Error(options.points + ": " + error.what());
@@ -170,10 +151,10 @@ Input ExactFrames::take() {
       note_of_frame(frame, reader_.number(), options_.periodic, is_volume_);
       if (!is_volume_) note_points(options_, grid, points);
     }
-    Input input = input_of(options_, options_.trajectory, grid, std::move(points), std::move(frame.ids));
+    Input input =
+        input_of(options_, options_.trajectory, grid, std::move(points), std::move(frame.ids), frame.values);
     input.timestep = frame.timestep;
     input.values = std::move(frame.values);
-    make_weights(options_, input);
     return input;
   } catch (const Error& error) {
     throw reader_.error(error);
@@ -182,15 +163,7 @@ Input ExactFrames::take() {
 
 Input read_exact_input(const SeedOptions& options) {
   if (!options.trajectory.empty()) return exact_input_from_trajectory(options);
-  if (is_volume(options)) {
-    Input input = read_volume_input(without_voxels(options));
-    try {
-      make_weights(options, input);
-    } catch (const Error& error) {
-      throw Error(options.points + ": " + error.what());
-    }
-    return input;
-  }
+  if (is_volume(options)) return read_volume_input(without_voxels(options));
   if (!options.points.empty()) return exact_input_from_points(options);
   Input input = read_input(options);
   input.place = [place = std::move(input.place)](const Device& device) {

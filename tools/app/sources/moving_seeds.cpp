@@ -63,7 +63,7 @@ class Trajectory : public MovingSeeds {
   }
   void move(Seeds& seeds, Window& window) const override {
     window = present_.view.window;
-    seeds.move_to(window.grid(), *present_.points);
+    seeds.move_to(window.grid(), weighted(*present_.points, present_.weights));
   }
   std::optional<double> done() const override {
     const double of_frames = frames_ ? static_cast<double>(frame_) / *frames_ : 0;

@@ -46,6 +46,9 @@ Input plane_from_points(const SeedOptions& options) {
   try {
     const Mapping mapping = mapping_of(options, points);
     const Size picture = picture_size(options, mapping.bounds);
+    const Weights weights =
+        weights_of(options, read.values, read.ids,
+                   options.weight_column.empty() ? 1 : pixels_of_square(mapping.bounds, picture));
     const MappedPoints mapped = map_points(points, mapping, picture, read.ids);
     warn_of_scales(mapping.bounds, picture.grid());
     if (mapping.periodic != Axes::none && !options.bounds && !options.domain) {
@@ -55,8 +58,9 @@ Input plane_from_points(const SeedOptions& options) {
     }
     note_outside(mapped.outside, points.size(), mapping.bounds, options.keeps_inside);
     return {mapped.view,
-            [mapped, snap = mapping.snap](const Device& device) {
-              return Seeds(device, mapped.view.window.grid(), mapped.places, {Outside::count, snap});
+            [mapped, weights, snap = mapping.snap](const Device& device) {
+              const Points places = weighted(mapped.places, weights);
+              return Seeds(device, mapped.view.window.grid(), places, {Outside::count, snap});
             },
             read.ids,
             read.values,
@@ -143,6 +147,39 @@ void check_mask_size(const std::string& path, const Grid& mask, const std::optio
                           mask.width(), mask.height(), asked_for->width(), asked_for->height()));
 }
 
+Weights weights_of(const SeedOptions& options, const ColumnValues& values,
+                   const std::vector<std::uint32_t>& ids, double squares) {
+  if (options.weight_column.empty()) return nullptr;
+  const char* const what = options.are_radii ? "radius" : "weight";
+  if (!values.texts.empty()) {
+    throw Error(fmt::format("column {} has texts, such as \"{}\"; a {} is a number", options.weight_column,
+                            values.texts.front(), what));
+  }
+  const auto weights = std::make_shared<std::vector<double>>();
+  for (const double value : values.numbers) {
+    if (!std::isfinite(value) || (options.are_radii && value < 0)) {
+      const std::size_t seed = weights->size();
+      throw Error(fmt::format("the {} of seed {} in column {} is {}; it must be {}", what,
+                              ids.empty() ? seed : ids[seed], options.weight_column, value,
+                              options.are_radii ? "a number that is not negative" : "a finite number"));
+    }
+    weights->push_back((options.are_radii ? value * value : value) * squares);
+  }
+  return weights;
+}
+
+double pixels_of_square(const Bounds& bounds, const Size& picture) {
+  constexpr double rounded = 1.01;  // as the number of pixels of a side is, which are whole
+  const double x = (bounds.x1 - bounds.x0) / picture.width(), y = (bounds.y1 - bounds.y0) / picture.height();
+  if (!(std::max(x, y) <= rounded * std::min(x, y))) {
+    throw Error(
+        fmt::format("weights need pixels that are squares in the data, and these are {:g} x {:g}; give "
+                    "--width W, or bounds and a size of one shape",
+                    x, y));
+  }
+  return 1 / (x * y);
+}
+
 CsvPoints read_points(const SeedOptions& options, bool has_z) {
   as_usage([&] { check_extension(options.points, {".csv", ".npy"}); });
   refuse_csv_options(options);
@@ -181,7 +218,17 @@ const char* option_of_data(const SeedOptions& options) {
                                                : nullptr;
 }
 
+void check_weight_options(const SeedOptions& options) {
+  if (options.weight_column.empty()) return;
+  if (options.points.empty() && options.trajectory.empty())
+    throw UsageError("--weights and --radius need --points or --trajectory");
+  if (options.on_globe) throw UsageError("--metric great-circle knows no --weights and no --radius");
+  if (!options.value_column.empty() && options.value_column != options.weight_column)
+    throw UsageError("--color column:NAME and --weights or --radius take one column, and these are two");
+}
+
 void check_seed_options(const SeedOptions& options, bool needs_size) {
+  check_weight_options(options);
   const char* const of_volumes = options.bounds && options.bounds->is_box() ? "--bounds with six numbers"
                                  : has_z(periodic_axes(options))            ? "--periodic with z"
                                  : options.columns && !options.columns->z.empty() ? "--columns X,Y,Z"
@@ -227,7 +274,10 @@ void snap_for(const std::string& what, SeedOptions& options) {
 }
 
 void snap_for(const Method& method, SeedOptions& options) {
-  if (!method.exact) snap_for("the method " + method.name, options);
+  if (method.exact) return;
+  if (!options.weight_column.empty())
+    throw UsageError("the method " + method.name + " knows no --weights and no --radius; exact does");
+  snap_for("the method " + method.name, options);
 }
 
 void refuse_window(const Input& input, const std::string& what) {

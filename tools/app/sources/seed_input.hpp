@@ -44,7 +44,7 @@ struct SeedOptions {
   bool decimal_comma = false;
   std::vector<std::string> keep;      // columns of points that tables of cells have too: see CsvOptions
   std::string value_column;           // whose values are read with the points
-  std::string weight_column;          // of exact cells; "": none
+  std::string weight_column;          // ""; none
   bool are_radii = false;             // weights are squares of that column
   bool on_globe = false;              // points are longitudes and latitudes: distances are great circles
   std::optional<MeasureUnits> units;  // else those of the data, where there are bounds
@@ -79,6 +79,26 @@ const char* option_of_data(const SeedOptions& options);
 /// What no parser can say: options that go with either of two others. Throws UsageError. `needs_size`: points
 /// and particles need pixels.
 void check_seed_options(const SeedOptions& options, bool needs_size = true);
+
+/// Throws UsageError for options of weights where there can be none.
+void check_weight_options(const SeedOptions& options);
+
+/// Of seeds, in squared units of their grid; null: none.
+using Weights = std::shared_ptr<const std::vector<double>>;
+
+/// Points with them.
+template <typename Point>
+Points weighted(const std::vector<Point>& points, const Weights& weights) {
+  return Points(points).weighted(weights ? weights->data() : nullptr);
+}
+
+/// The weights that the values of the column are, where a square of the data's unit has so many of the
+/// grid's. Throws Error for a value that is none.
+Weights weights_of(const SeedOptions& options, const ColumnValues& values,
+                   const std::vector<std::uint32_t>& ids, double squares = 1);
+
+/// How many pixels there are in a square of the data's unit. Throws Error if they are no squares.
+double pixels_of_square(const Bounds& bounds, const Size& picture);
 
 /// The points of --points, as the file has them; says on standard error what may not be expected of it.
 /// Throws UsageError for an extension that is none of points, Error if the file is bad.
@@ -121,7 +141,8 @@ struct Input {
   // Of a trajectory's frame.
   std::optional<std::int64_t> timestep = std::nullopt;  // where the file has one
   std::optional<Box> box = std::nullopt;                // none in an XYZ without a lattice
-  std::shared_ptr<const std::vector<std::optional<Point>>> points = nullptr;  // that place() places
+  std::shared_ptr<const std::vector<std::optional<Point>>> points = nullptr;  // that place() places ...
+  Weights weights = nullptr;                                                  // ... with these
 
   // The greatest displacement along an axis to this frame of a particle that was there before, in pixels of
   // the diagram's grid, and none if that is another one; the shorter way round where the box is periodic.

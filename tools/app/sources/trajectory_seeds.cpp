@@ -146,8 +146,9 @@ std::optional<Input> TrajectorySeeds::next() {
   is_first_ = false;
   window_ = input.view.window;
   points_ = input.points;
-  input.place = [grid = window_->grid(), points = points_, snap = options_.snapping()](const Device& device) {
-    return Seeds(device, grid, *points, {Outside::count, snap});
+  input.place = [grid = window_->grid(), points = points_, weights = input.weights,
+                 snap = options_.snapping()](const Device& device) {
+    return Seeds(device, grid, weighted(*points, weights), {Outside::count, snap});
   };
   input.timestep = frame.timestep;
   input.box = frame.box;
@@ -168,8 +169,17 @@ Input TrajectorySeeds::volume() {
   if (is_first_) note_scales(grid);
   if (!scales_checked_) scales_checked_ = warn_of_voxels(grid, fmt::format("frame {}: ", reader_.number()));
   Input input = {view_of_volume(grid, in_pixels(options_)), {}, frame.ids};
+  input.weights = weights_of_frame(1);
   input.points = std::make_shared<std::vector<std::optional<Point>>>(points.begin(), points.end());
   return input;
+}
+
+Weights TrajectorySeeds::weights_of_frame(double squares) const {
+  try {
+    return weights_of(options_, reader_.frame().values, reader_.frame().ids, squares);
+  } catch (const Error& error) {
+    throw reader_.error(error);
+  }
 }
 
 std::optional<Bounds> TrajectorySeeds::shown_bounds() {
@@ -253,8 +263,10 @@ Input TrajectorySeeds::plane() {
   if (!picture_) picture_ = size_of_picture(bounds);
   MappedPoints mapped{{*picture_, picture_->grid()}, {}};
   Periods periods;
+  double squares = 1;
   if (bounds) {
     try {
+      if (!options_.weight_column.empty()) squares = pixels_of_square(*bounds, *picture_);
       mapped = map_points(frame.positions, mapping_of_frame(*bounds), *picture_, frame.ids);
     } catch (const Error& error) {
       throw reader_.error(error);
@@ -266,7 +278,9 @@ Input TrajectorySeeds::plane() {
   slots_.update(frame.ids, places);
   const auto points = std::make_shared<std::vector<std::optional<Point>>>(slots_.size());
   for (std::size_t i = 0; i < places.size(); ++i) (*points)[slots_.of_ids()[i]] = places[i];
-  const std::vector<std::uint32_t> by_cell = slots_by_cell(places, slots_);
+  // With weights the one that is heaviest has the pixels of a place, under its own slot.
+  const Weights weights = weights_of_frame(squares);
+  const std::vector<std::uint32_t> by_cell = weights ? slots_.of_ids() : slots_by_cell(places, slots_);
   Input input = {
       mapped.view,
       {},
@@ -275,6 +289,10 @@ Input TrajectorySeeds::plane() {
        frame.values.texts},
       mapped.is_window()};
   input.points = points;
+  if (weights) {
+    input.weights = std::make_shared<const std::vector<double>>(
+        by_slot(*weights, by_cell, slots_.size(), std::numeric_limits<double>::quiet_NaN()));
+  }
   if (window_ && *window_ != mapped.view.window) return input;
   double greatest = 0;
   for (std::size_t slot = 0; points_ && slot < std::min(points->size(), points_->size()); ++slot) {

@@ -91,6 +91,8 @@ class TrajectorySeeds {
   bool is_volume() const { return options_.is_volume(); }
   Input volume();
   Input plane();
+  /// See weights_of().
+  Weights weights_of_frame(double squares) const;
   /// What the picture shows; none if the frame, and those before it, have neither a box nor particles.
   std::optional<Bounds> shown_bounds();
   Mapping mapping_of_frame(const Bounds& bounds) const;

@@ -112,8 +112,16 @@ std::array<int, 3> spacing_of(const Grid& grid, int most = few) {
   return {1, 1, 1};
 }
 
-/// Spaced as its voxels are, if it is to have some.
+/// Spaced as its voxels are, if it is to have some. Throws Error for weights if they are no cubes.
 Grid with_voxels(const SeedOptions& options, const Grid& grid, int most = few) {
+  if (options.size && !options.weight_column.empty()) {
+    if (has_scale(grid)) return grid;
+    throw Error(
+        fmt::format("weights need voxels that are cubes in the data, and these are {:g} x {:g} x {:g}; "
+                    "give a --size like the bounds",
+                    AxisScale{grid.x()}.side_of_pixel(), AxisScale{grid.y()}.side_of_pixel(),
+                    AxisScale{grid.z()}.side_of_pixel()));
+  }
   return options.size ? with_spacing(grid, spacing_of(grid, most)) : grid;
 }
 
@@ -172,11 +180,13 @@ Input input_from_points(const SeedOptions& options) {
     if (!options.bounds && periodic != Axes::none) {
       print_note("the periods are those of the points' bounding box; --bounds says others");
     }
-    Input input = {view_of_volume(grid, in_pixels(options)),
-                   [grid, points = std::move(read.points), snap = options.snapping()](const Device& device) {
-                     return Seeds(device, grid, points, {Outside::refuse, snap});
-                   },
-                   std::move(read.ids)};
+    const Weights weights = weights_of(options, read.values, read.ids);
+    Input input = {
+        view_of_volume(grid, in_pixels(options)),
+        [grid, weights, points = std::move(read.points), snap = options.snapping()](const Device& device) {
+          return Seeds(device, grid, weighted(points, weights), {Outside::refuse, snap});
+        },
+        std::move(read.ids)};
     input.kept = {std::move(read.kept_names), std::move(read.kept)};
     input.values = std::move(read.values);
     return input;
@@ -245,6 +255,7 @@ void refuse_in_volumes(const std::string& option) {
 }
 
 void check_volume_options(const SeedOptions& options) {
+  check_weight_options(options);
   const char* const of_planes = !options.mask.empty()           ? "--mask"
                                 : options.width != 0            ? "--width"
                                 : options.outside               ? "--outside"
