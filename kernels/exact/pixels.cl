@@ -7,55 +7,83 @@
 //
 // The entry behind that of a bin counts its places, then is the next place of the bin's in the list, and in
 // the end where the bin ends. Rows of bins stand in any order in the list, and so do the places of one bin.
+// Of places at one point (with one lag, where there are weights) one stands for all, with the lowest id: only
+// that can win.
 
-kernel void count_places(global const given_t* restrict given, uint count, int4 bits, int4 size,
-                         global uint* restrict starts) {
-  const bins_t bins = bins_of(bits, size);
+// Finds who stands for each place in a table of 2^table_bits places by their hashes, which is NOT_SEEN at first, as
+// `lowest` is: that gets the lowest id of the places that one stands for, and stays so of all others. (Ids are the
+// places' own numbers unless they are given.)
+static inline int4 place_and_lag(given_t given, uint id, global const int* lags) {
+  const int4 place = place_of(given);
+  return (int4)(place.xy, 0, IS_WEIGHTED ? lags[id] : 0);
+}
+kernel void find_repeats(global const given_t* restrict given, global const uint* restrict ids, int has_ids,
+                         global const int* restrict lags, uint count, uint table_bits,
+                         global uint* restrict table, global uint* restrict lowest) {
   const uint item = (uint)get_global_id(0);
-  if (item < count && is_given(given[item])) atomic_inc(starts + bin_of(&bins, place_of(given[item])) + 1);
+  if (item >= count || !is_given(given[item])) return;
+  const uint id = has_ids ? ids[item] : item;
+  const int4 own = place_and_lag(given[item], id, lags);
+  const uint hash = (uint)own.x * 0x9e3779b1u ^ (uint)own.y * 0x85ebca77u ^ (uint)own.w * 0x27d4eb2fu;
+  uint at = hash * 0xc2b2ae3du >> (32 - table_bits);
+  uint first = atomic_cmpxchg(table + at, NOT_SEEN, item);
+  while (first != NOT_SEEN && any(place_and_lag(given[first], has_ids ? ids[first] : first, lags) != own)) {
+    at = (at + 1) & ((1u << table_bits) - 1);
+    first = atomic_cmpxchg(table + at, NOT_SEEN, item);
+  }
+  atomic_min(lowest + (first == NOT_SEEN ? item : first), id);
 }
 
-// Gives each row of bins its part of the list. Behind the bins stands how much is given.
-kernel void start_bins(global uint* restrict starts, int4 bits, int4 size) {
+kernel void count_places(global const given_t* restrict given, global const uint* restrict lowest, uint count,
+                         int4 bits, int4 size, global uint* restrict starts) {
   const bins_t bins = bins_of(bits, size);
-  const uint row = (uint)get_global_id(0), rows = (uint)bins.rows, each = (uint)bins.columns + 1;
-  if (row >= rows) return;
-  global uint* const own = starts + row * each;
+  const uint item = (uint)get_global_id(0);
+  if (item >= count || lowest[item] == NOT_SEEN) return;
+  atomic_inc(starts + bin_of(&bins, place_of(given[item])) + 1);
+}
+
+// A work-group gives a row of bins its part of the list. Behind the bins stands how much is given.
+kernel void start_bins(global uint* restrict starts, int4 bits, int4 size) {
+  local uint before[MOST_ITEMS_OF_ROW];  // how many places the bins of items have; then, of items before
+  local uint begin;
+  const bins_t bins = bins_of(bits, size);
+  const uint row = (uint)get_group_id(0), rows = (uint)bins.rows, columns = (uint)bins.columns;
+  const uint item = (uint)get_local_id(0), items = (uint)get_local_size(0), some_bins = (columns - 1) / items + 1;
+  global uint* const own = starts + row * (columns + 1);
+  const uint first = min(item * some_bins, columns), last = min(first + some_bins, columns);
   uint sum = 0;
-  for (uint x = 1; x < each; ++x) sum += own[x];
-  uint at = atomic_add(starts + rows * each, sum);
-  own[0] = at;
-  for (uint x = 1; x < each; ++x) {
-    const uint some = own[x];
-    own[x] = at;
-    at += some;
+  for (uint x = first; x < last; ++x) sum += own[x + 1];
+  before[item] = sum;
+  barrier(CLK_LOCAL_MEM_FENCE);
+  if (item == 0) {
+    uint all = 0;
+    for (uint i = 0; i < items; ++i) {
+      const uint of_item = before[i];
+      before[i] = all;
+      all += of_item;
+    }
+    begin = atomic_add(starts + rows * (columns + 1), all);
+    own[0] = begin;
+  }
+  barrier(CLK_LOCAL_MEM_FENCE);
+  uint at = begin + before[item];
+  for (uint x = first; x < last; ++x) {
+    const uint of_bin = own[x + 1];
+    own[x + 1] = at;
+    at += of_bin;
   }
 }
 
-// Writes the lists: places, and the ids of their seeds, which are the places' own numbers unless they are
-// given.
-kernel void list_places(global const given_t* restrict given, global const uint* restrict ids, int has_ids,
-                        uint count, int4 bits, int4 size, global const int* restrict lags_of_seeds,
+kernel void list_places(global const given_t* restrict given, global const uint* restrict lowest, uint count,
+                        int4 bits, int4 size, global const int* restrict lags_of_seeds,
                         global uint* restrict starts, global int* restrict xs, global int* restrict ys,
-                        global uint* restrict ids_of_list, global int* restrict lags) {
+                        global uint* restrict ids, global int* restrict lags) {
   const bins_t bins = bins_of(bits, size);
   const uint item = (uint)get_global_id(0);
-  if (item >= count || !is_given(given[item])) return;
+  if (item >= count || lowest[item] == NOT_SEEN) return;
   const int4 place = place_of(given[item]);
-  const places_of_bins_t places = {xs, ys, 0, ids_of_list, lags};
-  put(&places, atomic_inc(starts + bin_of(&bins, place) + 1), place, has_ids ? ids[item] : item,
-      lags_of_seeds);
-}
-
-// A work-group of one item has a row of bins.
-kernel void drop_repeats(global uint* restrict starts, int4 bits, int4 size, global int* restrict xs,
-                         global int* restrict ys, global uint* restrict ids, global int* restrict lags) {
-  local uint seen[1 << TABLE_BITS];
-  const bins_t bins = bins_of(bits, size);
-  const int row = (int)get_global_id(0);
-  if (row >= bins.rows) return;
   const places_of_bins_t places = {xs, ys, 0, ids, lags};
-  drop_repeats_of_row(&places, starts + row * (bins.columns + 1), bins.columns, seen);
+  put(&places, atomic_inc(starts + bin_of(&bins, place) + 1), place, lowest[item], lags_of_seeds);
 }
 
 // --- labels ---

@@ -19,8 +19,9 @@
 #define SIDE_OF_PLANE 64
 #define SIDE_OF_VOLUME 32
 
-#define BUCKETS 256       // of rows of bins, into which places are sorted first
-#define PLACES_OF_BIN 4   // about
-#define BEHIND_PLACES 16  // values behind each list of the index, which is read in whole vectors
+#define BUCKETS 256            // of rows of bins, into which places are sorted first
+#define PLACES_OF_BIN 4        // about
+#define MOST_ITEMS_OF_ROW 256  // of a group that gives a row of bins its part of the list (pixels.cl)
+#define BEHIND_PLACES 16       // values behind each list of the index, which is read in whole vectors
 
 #endif

@@ -17,6 +17,7 @@ static_assert(fractions_of_pixel == 1 << MOST_FRACTION_BITS);
 /// The engine's working memory.
 struct PlacesWorkspace {
   cl::Buffer counts, ends, sorted;        // while the index is made
+  cl::Buffer table, lowest;               // likewise, in the group shape
   cl::Buffer starts, x, y, z, ids, lags;  // the index (kernels/exact/bins.cl)
 };
 
@@ -102,7 +103,8 @@ Report exact_diagram_by_places(Filling& filling, DiagramState& state) {
   const cl_int4 size = {{grid.width(), grid.height(), grid.depth(), 0}}, bits = bits_of_bins(grid, count);
   const std::size_t rows = along(grid.height(), bits.s[1]) * along(grid.depth(), bits.s[2]);
   const std::size_t entries = rows * (along(grid.width(), bits.s[0]) + 1), room = count + BEHIND_PLACES;
-  auto& [counts, ends, sorted, starts, x, y, z, ids, lags] = state.workspace<PlacesWorkspace>();
+  auto& [counts, ends, sorted, table, lowest, starts, x, y, z, ids, lags] =
+      state.workspace<PlacesWorkspace>();
   state.reserve(starts, (entries + 1) * word);
   for (cl::Buffer* const list : {&x, &y, &ids}) state.reserve(*list, room * word);
   if (grid.is_volume()) state.reserve(z, room * word);
@@ -124,13 +126,20 @@ Report exact_diagram_by_places(Filling& filling, DiagramState& state) {
   if (by_pixels) {
     const std::size_t group = device.tuning().group_width * device.tuning().group_height;
     const std::size_t items_of_places = std::max<std::size_t>(count, 1);
+    const std::size_t items_of_row = std::min<std::size_t>(group, MOST_ITEMS_OF_ROW);
+    cl_uint table_bits = 1;
+    while (std::size_t{1} << table_bits < 2 * items_of_places) ++table_bits;
+    state.reserve(table, word << table_bits);
+    state.reserve(lowest, items_of_places * word);
     const cl::Event begin = fill(state.device, starts, cl_uint{0}, entries + 1);
-    kernel("count_places", group).over_items(items_of_places, given, count, bits, size, starts);
-    kernel("start_bins", std::min<std::size_t>(group, 8)).over_items(rows, starts, bits, size);
+    fill(state.device, table, ~cl_uint{0}, std::size_t{1} << table_bits);
+    fill(state.device, lowest, ~cl_uint{0}, items_of_places);
+    kernel("find_repeats", group)
+        .over_items(items_of_places, given, given_ids, has_ids, of_seeds, count, table_bits, table, lowest);
+    kernel("count_places", group).over_items(items_of_places, given, lowest, count, bits, size, starts);
+    kernel("start_bins", items_of_row).over_items(rows * items_of_row, starts, bits, size);
     kernel("list_places", group)
-        .over_items(items_of_places, given, given_ids, has_ids, count, bits, size, of_seeds, starts, x, y,
-                    ids, of_lags);
-    kernel("drop_repeats", 1).over_items(rows, starts, bits, size, x, y, ids, of_lags);
+        .over_items(items_of_places, given, lowest, count, bits, size, of_seeds, starts, x, y, ids, of_lags);
     const cl::Event end = kernel("label_pixels", group)
                               .over_items(grid.pixels(), starts, x, y, ids, of_lags, order, has_ids, bits,
                                           size, first, last, state.labels);

@@ -99,7 +99,7 @@ BOOST_AUTO_TEST_CASE(an_exact_diagram_takes_few_commands_and_reads_nothing) {
   };
   for (const Case& c : {Case{Shape::group, Snap::to_pixels, 9, 10},
                         {Shape::vector, Snap::to_pixels, 5, 5},
-                        {Shape::group, Snap::none, 6, 6},
+                        {Shape::group, Snap::none, 8, 8},
                         {Shape::vector, Snap::none, 5, 5}}) {
     for (const Grid& grid : {flat, periodic}) {
       const Device device = shaped(c.shape);
