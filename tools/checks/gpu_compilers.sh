@@ -57,9 +57,12 @@ compile() { # TARGET LIBRARY FILE OPTION...
 }
 
 # What programs are built for besides a plain grid: places, and periodic axes.
-more_options() { # FILE
+more_options() { # FILE METRIC
   if [[ $1 == kernels/exact/group/diagram.cl ]]; then echo '-DVOROCL_PERIODIC_X -DVOROCL_PERIODIC_Y'; fi
-  if [[ $1 == kernels/exact/pixels.cl ]]; then printf '%s\n' -DVOROCL_FRACTIONS '-DVOROCL_FRACTIONS -DVOROCL_PERIODIC_X -DVOROCL_PERIODIC_Y' '-DVOROCL_FRACTIONS -DVOROCL_WEIGHTED -DVOROCL_PERIODIC_X -DVOROCL_PERIODIC_Y'; fi
+  if [[ $1 == kernels/exact/pixels.cl ]]; then printf '%s\n' -DVOROCL_FRACTIONS '-DVOROCL_FRACTIONS -DVOROCL_PERIODIC_X -DVOROCL_PERIODIC_Y'; fi
+  if [[ $1 == kernels/exact/pixels.cl && $2 == EUCLIDEAN ]]; then
+    echo '-DVOROCL_FRACTIONS -DVOROCL_WEIGHTED -DVOROCL_PERIODIC_X -DVOROCL_PERIODIC_Y'
+  fi
   if [[ $1 == kernels/measures/* ]]; then echo '-DVOROCL_DIMENSIONS=3 -DVOROCL_PERIODIC_X -DVOROCL_PERIODIC_Y -DVOROCL_PERIODIC_Z'; fi
   if [[ $1 == kernels/volumes/* ]]; then echo '-DVOROCL_PERIODIC_X -DVOROCL_PERIODIC_Y -DVOROCL_PERIODIC_Z'; fi
 }
@@ -132,7 +135,7 @@ for maker in "$@"; do
   for file in $(kernel_files); do
     for metric in EUCLIDEAN MANHATTAN; do
       for neighbours in 9 5; do report "$maker" "$file" -DVOROCL_$metric -DVOROCL_NEIGHBOURS=$neighbours; done
-      more_options "$file" | while read -r option; do
+      more_options "$file" "$metric" | while read -r option; do
         report "$maker" "$file" -DVOROCL_$metric -DVOROCL_NEIGHBOURS=9 $option
       done
     done
