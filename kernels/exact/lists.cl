@@ -46,7 +46,7 @@ typedef struct {
   global const uint* starts;
   global const int *x, *y, *z;
   global const uint* ids;
-  global const int* lags;
+  global const int* lags;  // by place; in the group shape by id
   global const int2*
       order;            // by id, if places may be images of seeds in a plane: what orders these; else null
   int4 first, last;     // the pixels that get labels; others of the grid get none

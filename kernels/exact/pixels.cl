@@ -44,8 +44,7 @@ kernel void count_places(global const given_t* restrict given, global const uint
 
 // A work-group gives a row of bins its part of the list. Behind the bins stands how much is given.
 kernel void start_bins(global uint* restrict starts, int4 bits, int4 size) {
-  local uint before[MOST_ITEMS_OF_ROW];  // how many places the bins of items have; then, of items before
-  local uint begin;
+  local uint starts_of_items[MOST_ITEMS_OF_ROW];  // first how many places the bins of each have
   const bins_t bins = bins_of(bits, size);
   const uint row = (uint)get_group_id(0), rows = (uint)bins.rows, columns = (uint)bins.columns;
   const uint item = (uint)get_local_id(0), items = (uint)get_local_size(0), some_bins = (columns - 1) / items + 1;
@@ -53,20 +52,21 @@ kernel void start_bins(global uint* restrict starts, int4 bits, int4 size) {
   const uint first = min(item * some_bins, columns), last = min(first + some_bins, columns);
   uint sum = 0;
   for (uint x = first; x < last; ++x) sum += own[x + 1];
-  before[item] = sum;
+  starts_of_items[item] = sum;
   barrier(CLK_LOCAL_MEM_FENCE);
   if (item == 0) {
     uint all = 0;
-    for (uint i = 0; i < items; ++i) {
-      const uint of_item = before[i];
-      before[i] = all;
-      all += of_item;
-    }
-    begin = atomic_add(starts + rows * (columns + 1), all);
+    for (uint i = 0; i < items; ++i) all += starts_of_items[i];
+    uint begin = atomic_add(starts + rows * (columns + 1), all);
     own[0] = begin;
+    for (uint i = 0; i < items; ++i) {
+      const uint of_item = starts_of_items[i];
+      starts_of_items[i] = begin;
+      begin += of_item;
+    }
   }
   barrier(CLK_LOCAL_MEM_FENCE);
-  uint at = begin + before[item];
+  uint at = starts_of_items[item];
   for (uint x = first; x < last; ++x) {
     const uint of_bin = own[x + 1];
     own[x + 1] = at;
@@ -75,15 +75,14 @@ kernel void start_bins(global uint* restrict starts, int4 bits, int4 size) {
 }
 
 kernel void list_places(global const given_t* restrict given, global const uint* restrict lowest, uint count,
-                        int4 bits, int4 size, global const int* restrict lags_of_seeds,
-                        global uint* restrict starts, global int* restrict xs, global int* restrict ys,
-                        global uint* restrict ids, global int* restrict lags) {
+                        int4 bits, int4 size, global uint* restrict starts, global int* restrict xs,
+                        global int* restrict ys, global uint* restrict ids) {
   const bins_t bins = bins_of(bits, size);
   const uint item = (uint)get_global_id(0);
   if (item >= count || lowest[item] == NOT_SEEN) return;
   const int4 place = place_of(given[item]);
-  const places_of_bins_t places = {xs, ys, 0, ids, lags};
-  put(&places, atomic_inc(starts + bin_of(&bins, place) + 1), place, lowest[item], lags_of_seeds);
+  const uint at = atomic_inc(starts + bin_of(&bins, place) + 1);
+  xs[at] = place.x * SPACING_X, ys[at] = place.y * SPACING_Y, ids[at] = lowest[item];
 }
 
 // --- labels ---
@@ -108,7 +107,7 @@ static inline winner_t nearest_in(const scene_t* scene, span_t x, span_t y, int4
   int4 origin;
   while (next_range(scene, &walk, centre, &from, &to, &origin)) {
     for (uint at = from; at < to; ++at) {
-      const ulong lag = IS_WEIGHTED ? (ulong)scene->lags[at] * LAG_UNIT : 0;
+      const ulong lag = IS_WEIGHTED ? (ulong)scene->lags[scene->ids[at]] * LAG_UNIT : 0;
       const ulong distance = length_of(scene->x[at] - origin.x, scene->y[at] - origin.y) + lag;
       if (distance > best.distance) continue;
       if (distance == best.distance && !comes_first(scene, at, best.place)) continue;
@@ -152,7 +151,7 @@ static inline uint label_of(const scene_t* scene, int column, int row) {
   }
 }
 
-// Labels all pixels; those outside the region from `first` to `last` get no label.
+// Labels all pixels, with lags by id; those outside the region from `first` to `last` get no label.
 kernel void label_pixels(global const uint* restrict starts, global const int* restrict xs,
                          global const int* restrict ys, global const uint* restrict ids,
                          global const int* restrict lags, global const int2* restrict order, int has_images,

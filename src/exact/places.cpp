@@ -108,13 +108,13 @@ Report exact_diagram_by_places(Filling& filling, DiagramState& state) {
   state.reserve(starts, (entries + 1) * word);
   for (cl::Buffer* const list : {&x, &y, &ids}) state.reserve(*list, room * word);
   if (grid.is_volume()) state.reserve(z, room * word);
+  const bool by_pixels = device.tuning().shape == Shape::group;
   const std::shared_ptr<const Lags> weighted = filling.seeds().lags();
-  if (weighted) state.reserve(lags, room * word);
+  if (weighted && !by_pixels) state.reserve(lags, room * word);
   // Kernels do not look at what there is not.
   const cl::Buffer &of_lags = weighted ? lags : ids, &of_seeds = weighted ? weighted->there : ids,
                    &of_z = grid.is_volume() ? z : x;
 
-  const bool by_pixels = device.tuning().shape == Shape::group;
   KernelOptions options{filling.metric()};
   if (filling.takes_places()) options.extent = Extent::fractions;
   options.weighted = weighted != nullptr;
@@ -139,9 +139,9 @@ Report exact_diagram_by_places(Filling& filling, DiagramState& state) {
     kernel("count_places", group).over_items(items_of_places, given, lowest, count, bits, size, starts);
     kernel("start_bins", items_of_row).over_items(rows * items_of_row, starts, bits, size);
     kernel("list_places", group)
-        .over_items(items_of_places, given, lowest, count, bits, size, of_seeds, starts, x, y, ids, of_lags);
+        .over_items(items_of_places, given, lowest, count, bits, size, starts, x, y, ids);
     const cl::Event end = kernel("label_pixels", group)
-                              .over_items(grid.pixels(), starts, x, y, ids, of_lags, order, has_ids, bits,
+                              .over_items(grid.pixels(), starts, x, y, ids, of_seeds, order, has_ids, bits,
                                           size, first, last, state.labels);
     return filling.commit(0, begin, end);
   }
