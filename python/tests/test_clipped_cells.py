@@ -110,6 +110,9 @@ def test_catchments_of_a_country_s_cities():
         assert len(inside) == len(cities) and (inside.index == inside["index_right"]).all()
     with pytest.raises(vorocl.BadArgument, match="EPSG:4326.*EPSG:3035.*to_crs"):
         found.to_geopandas(data=located.to_crs("EPSG:3035"))
+    with pytest.raises(vorocl.BadArgument, match="EPSG:4326.*EPSG:3035.*to_crs"):
+        found.to_geopandas("EPSG:3035")
+    assert found.to_geopandas("WGS 84").crs == "EPSG:4326"
 
 
 def test_a_region_along_edges_has_none_of_the_cells_behind_them():

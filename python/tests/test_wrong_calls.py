@@ -70,6 +70,7 @@ WRONG = {
     "max_displacement": [-1, np.nan, "x", [], 10**400, Hostile()],
 }
 WRONG["weights"] = NO_NUMBERS[1:] + [1, [1, 2], [1, 2, np.nan], [1, np.inf, 2], np.zeros((3, 1)), ["a"] * 3]
+WRONG["weights"] += [[1j, 2, 3], np.ma.masked_equal([1, 2, 3], 2)]
 WRONG["sampling"] = ["x", [], (1, 1001), (1, 1, 1), -1, 0, np.nan, np.inf, object(), {}, Hostile()]
 WRONG["shape"] = WRONG["grid"]
 WRONG["spacing"] = WRONG["sampling"]

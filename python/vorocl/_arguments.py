@@ -82,9 +82,14 @@ def to_weights(weights: Optional[ArrayLike], count: int) -> Optional[NDArray[np.
     if weights is None:
         return None
     try:
-        array = np.ascontiguousarray(weights, dtype=np.float64)
+        given = np.asanyarray(weights)
+        array = np.ascontiguousarray(given, dtype=np.float64) if np.isrealobj(given) else None
     except (TypeError, ValueError):
-        raise BadArgument(f"weights must be an array of numbers; this is {shown(weights)}") from None
+        array = None
+    if array is None:
+        raise BadArgument(f"weights must be an array of numbers; this is {shown(weights)}")
+    if np.ma.is_masked(given):
+        raise BadArgument("weights must not be masked; mask the points that are not there")
     if array.shape != (count,):
         raise BadArgument(f"weights must have the shape ({count},), one per point; this array has the shape {array.shape}")
     return array

@@ -63,7 +63,7 @@ class _Cells:
         ------
         BadArgument
             If `data` has another number of rows, or a column of a name that the fields have, or another coordinate system
-            than the region.
+            than the region, as `crs` may have.
 
         Examples
         --------
@@ -79,7 +79,10 @@ class _Cells:
         geopandas: Any = import_module("geopandas")
         pandas: Any = import_module("pandas")
         fields = pandas.DataFrame(self.cells)
-        crs = self._crs if crs is None else crs
+        if crs is None:
+            crs = self._crs
+        elif self._crs is not None and geopandas.GeoSeries(crs=crs).crs != self._crs:
+            raise BadArgument(f"the region is in {self._crs}, and crs is {crs}: bring the cells to it by to_crs()")
         if data is None:
             return geopandas.GeoDataFrame(fields, geometry=polygons, crs=crs)
         if not isinstance(data, pandas.DataFrame):
