@@ -176,8 +176,8 @@ class VOROCL_API ExactCellsResult {
 /// seed, and 116 more where polygons are asked for; in a volume 380, and 220 more where faces are.
 ///
 /// Enqueues and returns, after a wait where only the device has the points. Throws Error if the device has no
-/// doubles (cl_khr_fp64) or too little memory, if the rectangle has no extent along an axis, if the grid has
-/// an axis that is spaced.
+/// doubles (cl_khr_fp64) or too little memory, if the rectangle has no extent along an axis, or if the grid
+/// has an axis that is spaced.
 VOROCL_API Report exact_cells(const Seeds& seeds, ExactCellsResult& result);
 
 }  // namespace vorocl

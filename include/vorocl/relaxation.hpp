@@ -73,9 +73,9 @@ VOROCL_API double energy(const Diagram& diagram);
 /// come; an approximate engine may make it rise now and then. Where seeds are snapped, those that come to
 /// share a pixel leave the higher id without a cell. Waits in every round. Throws Error if `rounds` is
 /// negative, the tolerance is not above 0, the density has another size than the diagram, a value that is
-/// negative or not finite, or nothing but zeros, an exact relaxation has one, or seeds that are snapped to
-/// pixels, seeds lie outside the grid, or the diagram's window is not
-/// the whole grid, with periods of at most 32,000 pixels; and as the engine and exact_cells() do. Cost of a
+/// negative or not finite, or nothing but zeros, the seeds have weights or lie outside the grid, or the
+/// diagram's window is not the whole grid, with periods of at most 32,000 pixels; of an exact relaxation if
+/// there is a density, or seeds are snapped to pixels; and as the engine and exact_cells() do. Cost of a
 /// density: 2 bytes of device memory per pixel and 96 per seed.
 VOROCL_API Relaxation relax(Seeds& seeds, Diagram& diagram, const Simulation::Engine& engine, int rounds,
                             const RelaxationObserver& observer = {}, const RelaxOptions& options = {});

@@ -65,8 +65,9 @@ struct SeedsOptions {
 /// Memory: on the device 4 bytes per seed and frame that is remembered, 8 more of points with Snap::none, 16
 /// of those in volumes, and those of its point where that came from the caller; two or three times as much in
 /// a loop over frames. Where a diagram's window does not hold all seeds 8 more, and 12 for each seed and
-/// image that may own a pixel, which the host finds. On the host 16 or 24 bytes per seed
-/// whose point came from there, and 16 more where the host places it.
+/// image that may own a pixel, which the host finds. On the host 16 or 24 bytes per seed whose point came
+/// from there, and 16 more where the host places it. A weight takes 8 bytes on the host, and 4 there and on
+/// the device once a diagram is made.
 ///
 /// Threads: one thread at a time.
 ///
@@ -80,7 +81,7 @@ class VOROCL_API Seeds {
   /// From points on the host. The options hold for all frames. Throws BadPoint naming the first point that is
   /// NaN, infinite, refused, or counts and is 2^31 pixels or more away from a pixel of the grid along an
   /// axis, before any device work. No points at all are allowed. Throws Error if the grid is a volume and the
-  /// points have no z.
+  /// points have no z, or if the weight of a point that is there is not finite.
   Seeds(const Device& device, const Grid& grid, const Points& points, const SeedsOptions& options = {});
   Seeds(const Device& device, const Grid& grid, std::initializer_list<Point> points,
         const SeedsOptions& options = {});

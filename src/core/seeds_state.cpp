@@ -367,6 +367,7 @@ void SeedsState::moved(const std::shared_ptr<cl::Buffer>& positions, double way)
   next.listed = nullptr;
   next.are_points = false;
   next.is_off_centre = false;
+  next.weights = nullptr;  // all were the same
   next.before = nullptr;
   next.placements = no_placements();
   next.way.last = way;

@@ -140,7 +140,9 @@ Move move_to_exact_centroids(Seeds& seeds, ExactCellsResult& result, double tole
     move.seeds += way > 0 ? 1 : 0;
     move.displacement = std::max(move.displacement, way);
   }
-  if (move.displacement >= tolerance) seeds.move_to(points);
+  const auto weights = Internal::state(seeds).frame()->weights;  // all the same, if there are any
+  if (move.displacement >= tolerance)
+    seeds.move_to(Points(points).weighted(weights ? weights->data() : nullptr));
   return move;
 }
 

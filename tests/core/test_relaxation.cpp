@@ -341,6 +341,31 @@ BOOST_AUTO_TEST_CASE(points_go_to_their_weighted_centroids) {
   }
 }
 
+BOOST_AUTO_TEST_CASE(seeds_whose_weights_are_the_same_move_as_without) {
+  const Grid grid(40, 30);
+  const std::vector<Point> points = random_points(grid, 12, 3);
+  const std::vector<double> weights(points.size(), 7);
+  RelaxOptions by_polygons;
+  by_polygons.exact = true;
+  const auto moved = [&](const Points& given, Snap snap, const auto& move) {
+    Seeds seeds(test_device(), grid, given, {Outside::count, snap});
+    Diagram diagram(test_device(), grid);
+    move(seeds, diagram);
+    exact_diagram(seeds, diagram);
+    return diagram.read();
+  };
+  const auto is_same = [&](Snap snap, const auto& move) {
+    return moved(points, snap, move) == moved(Points(points).weighted(weights.data()), snap, move);
+  };
+  for (const Snap snap : {Snap::to_pixels, Snap::none}) {
+    BOOST_TEST(is_same(snap, [](Seeds& seeds, Diagram& diagram) { relax(seeds, diagram, exactly, 3); }));
+    BOOST_TEST(is_same(snap, [](Seeds& seeds, Diagram&) { random_step(seeds, 1, Border::reflect, 1, 1); }));
+  }
+  BOOST_TEST(is_same(Snap::none, [&](Seeds& seeds, Diagram& diagram) {
+    relax(seeds, diagram, exactly, 3, {}, by_polygons);
+  }));
+}
+
 BOOST_AUTO_TEST_CASE(a_density_that_is_the_same_everywhere_changes_nothing) {
   const Grid grid(200, 150, Axes::x);
   for (const Snap snap : {Snap::to_pixels, Snap::none}) {
