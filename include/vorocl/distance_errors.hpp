@@ -50,7 +50,7 @@ class VOROCL_API DistanceErrorsResult {
 ///
 /// The counts are exact, the excess distances within 1e-4 of their value. Cost: one pass over the two label
 /// images, with a look-up of the seeds where they differ. Enqueues and returns. Throws Error if the diagrams
-/// do not fit together, or are not of one frame of seeds and one metric.
+/// do not fit together, are not of one frame of seeds and one metric, or their seeds have weights.
 VOROCL_API Report distance_errors(const Diagram& diagram, const Diagram& exact, DistanceErrorsResult& result);
 
 }  // namespace vorocl

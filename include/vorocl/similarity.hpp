@@ -56,8 +56,8 @@ VOROCL_API Report similarity(const Diagram& a, const Diagram& b, SimilarityResul
 /// a tolerance in pixels; labels that name no seed are equal to each other alone. With 1e-4 times the grid's
 /// side and Euclidean distances it is the similarity of the program by the paper's authors. One pass over the
 /// two label images, with a look-up of the seeds where they differ. Enqueues and returns. Throws Error if the
-/// diagrams do not fit together, are not of one frame of seeds and one metric, or the tolerance is negative
-/// or not finite.
+/// diagrams do not fit together, are not of one frame of seeds and one metric, their seeds have weights, or
+/// the tolerance is negative or not finite.
 VOROCL_API Report similarity(const Diagram& a, const Diagram& b, double tolerance, SimilarityResult& result);
 
 }  // namespace vorocl

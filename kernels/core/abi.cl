@@ -5,9 +5,9 @@
 #pragma clang diagnostic ignored "-Wpsabi"
 #endif
 
-// What is read or written soon. (The function of PoCL does nothing; Oclgrind knows no other.)
+// What is written soon. (The function of PoCL does nothing; Oclgrind knows no other.)
 #ifdef POCL_DEVICE_ADDRESS_BITS
-#define PREFETCH(address) __builtin_prefetch(address, 0, 2)
+#define PREFETCH(address) __builtin_prefetch(address, 1)
 #else
 #define PREFETCH(address) prefetch(address, 1)
 #endif

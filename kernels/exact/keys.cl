@@ -303,7 +303,7 @@ NOINLINE static bool label_by_keys(const scene_t* scene, const list_t* list, int
   if (is_inside(scene, b)) {  // the labels' lines come while keys are made
     for (int z = 0; z < b.sz; ++z) {
       for (int y = 0; y < b.sy; ++y) {
-        FETCH_LINE(scene->labels + index_of(scene, b.x, b.y + y, b.z + z));
+        PREFETCH(scene->labels + index_of(scene, b.x, b.y + y, b.z + z));
       }
     }
   }

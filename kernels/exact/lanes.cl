@@ -7,14 +7,6 @@
 #define NOINLINE __attribute__((noinline))
 #define INLINE __attribute__((always_inline)) static inline
 
-// Has a line of the cache come, which is written to later. Oclgrind does not know what processors have for
-// it.
-#if defined(__x86_64__) && !defined(__SPIR__) && !defined(__SPIR64__)
-#define FETCH_LINE(pointer) __builtin_prefetch((const void*)(size_t)(pointer), 1)
-#else
-#define FETCH_LINE(pointer) ((void)(pointer))
-#endif
-
 // PoCL makes vstore8() of private arrays in halves: these are one instruction.
 typedef struct __attribute__((packed)) {
   int8 v;

@@ -267,7 +267,7 @@ NOINLINE static bool label_by_stamps(const scene_t* scene, box_t tile, int side,
       for (int x = 0; x < tile.sx; x += 8) store_uints((uint8)NO_KEY, row + x);
       // The labels' lines come while stamps are made.
       global uint* const out = scene->labels + index_of(scene, tile.x, tile.y + y, tile.z + z);
-      for (int x = 0; inside && x < tile.sx; x += 16) FETCH_LINE(out + x);
+      for (int x = 0; inside && x < tile.sx; x += 16) PREFETCH(out + x);
     }
   }
   for (int i = 0; i < count; ++i) {

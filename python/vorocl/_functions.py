@@ -635,7 +635,7 @@ def relax(
         root of the density: give its square for points as dense as it is.
     exact : bool, optional
         Move the points to the centroids of their polygons, in volumes of their polyhedra, as `exact_cells` cuts them:
-        anywhere, so that cells become as even as polygons do with any number of pixels, of which the energies are.
+        anywhere, so that cells become as even as polygons do with any number of pixels. The energies are of pixels.
         Without a density, and not of snapped points.
     <method, outside, snap, device>
 

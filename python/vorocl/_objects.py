@@ -690,6 +690,8 @@ def _handle(buffer: Buffer) -> int:
 class Simulation(OnDevice):
     """Seeds that move, and their diagram frame by frame. Nothing is allocated on the device after the first frame.
 
+    Points that have weights get them with each frame: see `step`.
+
     Parameters
     ----------
     <grid>

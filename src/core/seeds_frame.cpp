@@ -378,7 +378,7 @@ std::shared_ptr<const PointPlacement> SeedsFrame::place_points_in(const Window& 
 
 void refuse_weights(const SeedsFrame& frame, const std::string& what) {
   if (frame.lags())
-    throw Error("the seeds have weights, which " + what + " does not know; exact diagrams do");
+    throw Error("the seeds have weights, which " + what + " does not know; exact Euclidean diagrams do");
 }
 
 void refuse_seeds_beyond(const Placement& placement, const SeedsFrame& frame, const char* what) {
@@ -387,10 +387,10 @@ void refuse_seeds_beyond(const Placement& placement, const SeedsFrame& frame, co
   if (placement.outside > 0) {
     throw Error(std::to_string(placement.outside) + " of " + std::to_string(frame.size) +
                 " seeds lie outside the diagram's window, which " + what +
-                " cannot take; only exact diagrams do");
+                " cannot take; only diagrams of the method exact do");
   }
   throw Error("the diagram's window is not the whole of its grid, with periods of at most 32,000 pixels: " +
-              std::string(what) + " cannot take that; only exact diagrams do");
+              std::string(what) + " cannot take that; only diagrams of the method exact do");
 }
 
 }  // namespace vorocl

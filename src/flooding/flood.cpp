@@ -21,7 +21,8 @@ void refuse_what_floods_cannot_take(const Filling& filling, const DiagramState& 
   refuse_seeds_beyond(filling.placement(), filling.seeds(), "flooding");
   if (!diagram.window.is_whole()) {
     throw Error(
-        "the diagram's window is a part of its grid, which flooding cannot take; only exact diagrams do");
+        "the diagram's window is a part of its grid, which flooding cannot take; only diagrams of the method "
+        "exact do");
   }
 }
 

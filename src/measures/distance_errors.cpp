@@ -48,6 +48,7 @@ MeasuredDiagram cells_of_both(const Diagram& a, const Diagram& b) {
   if (one.placement != other.placement) {
     throw Error("the diagrams are of different frames of seeds, and cannot be compared by distances");
   }
+  refuse_weights(*labels_of(b).seeds, "an error of distances");
   // Labels of points are judged by points, also where the others are of pixels.
   return one.points ? std::move(one) : std::move(other);
 }

@@ -181,7 +181,9 @@ Relaxation relax(Seeds& seeds, Diagram& diagram, const Simulation::Engine& engin
     throw Error("an exact relaxation takes no density, which weighs pixels; leave one of them out");
   }
   if (options.exact && Internal::state(seeds).options.snap == Snap::to_pixels)
-    throw Error("an exact relaxation moves seeds to any place, and these are snapped to pixels");
+    throw Error(
+        "an exact relaxation moves seeds to any place, and these are snapped to pixels, as methods that "
+        "flood take them");
   refuse_seeds_beyond(*Internal::state(diagram).place(seeds), *Internal::state(seeds).frame(),
                       "Lloyd relaxation");
   if (!diagram.window().is_whole()) {

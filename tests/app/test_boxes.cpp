@@ -335,7 +335,7 @@ BOOST_AUTO_TEST_CASE(a_pipe_shows_the_box_of_its_first_frame) {
   BOOST_TEST(image.labels == labels_of(folder, "w1.npy").labels);
   const Result flooded = run(folder, pipe + "--method jfa", "cat t.lammpstrj |");
   BOOST_TEST(flooded.exit_code == failure);
-  BOOST_TEST(flooded.error.find("only exact diagrams do") != std::string::npos, flooded.error);
+  BOOST_TEST(flooded.error.find("only diagrams of the method exact do") != std::string::npos, flooded.error);
 }
 
 BOOST_AUTO_TEST_CASE(what_is_left_out_of_the_file_is_said) {

@@ -185,6 +185,9 @@ BOOST_AUTO_TEST_CASE(what_cannot_be_weighted_is_refused) {
   BOOST_CHECK_EXCEPTION(exact_diagram(seeds, diagram, {Metric::manhattan}), Error, says("not Euclidean"));
   BOOST_CHECK_EXCEPTION(random_step(seeds, 1, Border::reflect, 1, 1), Error, says("random motion"));
   BOOST_CHECK_EXCEPTION(seeds.move_to(points), Error, says("give each a weight"));
+  exact_diagram(seeds, diagram);
+  DistanceErrorsResult errors;
+  BOOST_CHECK_EXCEPTION(distance_errors(diagram, diagram, errors), Error, says("an error of distances"));
   const auto label = [&](const Grid& of, const SeedsOptions& options = {}) {
     Diagram other(device, of);
     exact_diagram(Seeds(device, of, weighted, options), other);
