@@ -117,7 +117,7 @@ BOOST_AUTO_TEST_CASE(bad_options_are_usage_errors) {
           failure, {"p.csv", "point 0", "outside the bounds 4,4,6,6"});
   refuses(folder, points + "--size 10x10 --outside ignore", usage, {"--outside", "count, refuse"});
   refuses(folder, render + "--size 32001x10 --periodic x", failure,
-          {"whole of its grid", "at most 32,000 pixels", "only exact"});
+          {"whole of its grid", "at most 32,000 pixels", "only diagrams of the method exact"});
   refuses(folder, "bench --random 5 --size 10x10 --periodic x --methods opencv", failure,
           {"opencv", "periodic"});
   refuses(folder, render + "--size 10x10 --bounds 0,0,1,1", usage, {"--bounds", "--points"});
