@@ -187,26 +187,37 @@ static inline void find_slots(cell_t* cell, int edges) {
   }
 }
 
+// Whether none of the vertices that are `unsure` is beyond a plane, as of many planes in lattices. Such a plane has no
+// face, unless weights put it where another one is.
+static inline bool only_touches(const cell_t* cell, double4 plane, uint site) {
+  for (int w = 0; w < WORDS && cell->lags == 0; ++w) {
+    for (ulong left = cell->unsure[w]; left != 0; left &= left - 1)
+      if (side_of(cell, w * 64 + lowest_of(left), plane, site, true) > 0) return false;
+  }
+  return cell->lags == 0;
+}
+
 // Cuts off what lies beyond the bisector of a site that is n away. Returns whether that is anything.
 static inline bool cut(cell_t* cell, double3 n, uint site, int image) {
   const double more = lag_of(cell->lags, site) - cell->lag, slack = 2 * fabs(more);
   const double c = n.x * n.x + n.y * n.y + n.z * n.z + more;
-  ulong any = 0;
+  ulong any = 0, sure = 0;
   for (int w = 0; w < WORDS; ++w) {
-    ulong8 sure;
-    const ulong may = beyond(cell, w, n, c, slack, &sure);
-    cell->gone[w] = may == 0 ? 0 : or_of(sure) & may;
+    ulong8 certain;
+    const ulong may = beyond(cell, w, n, c, slack, &certain);
+    cell->gone[w] = may == 0 ? 0 : or_of(certain) & may;
     cell->unsure[w] = may & ~cell->gone[w];
     any |= may;
+    sure |= cell->gone[w];
+    cell->is_doubtful |= cell->unsure[w] != 0;
   }
-  if (any == 0) return false;
+  if (any == 0 || (sure == 0 && only_touches(cell, (double4)(n, c), site))) return false;
   if (cell->count == MOST_PLANES) forget_planes(cell);
   any = 0;
   int kept = 0;
   for (int w = 0; w < WORDS; ++w) {
     for (ulong left = cell->unsure[w]; left != 0; left &= left - 1) {
       const int k = lowest_of(left);
-      cell->is_doubtful = true;
       if (side_of(cell, w * 64 + k, (double4)(n, c), site, false) > 0) cell->gone[w] |= 1UL << k;
     }
     any |= cell->gone[w];
