@@ -41,6 +41,9 @@ typedef JOIN(int, VOROCL_WIDTH) int_v;
 #define ANY(condition) any(condition)
 #endif
 
+// The index of the lowest bit that is set.
+static inline uint lowest_bit(uint bits) { return popcount(~bits & (bits - 1)); }
+
 // A kernel whose work-items compute whole vectors. The hint keeps compilers that make vectors of work-items from
 // doing so.
 #define VECTOR_KERNEL kernel __attribute__((vec_type_hint(uint_v)))

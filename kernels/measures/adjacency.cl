@@ -98,7 +98,7 @@ static inline void add_gathered(gathered_t* gathered, uint block, CELL_PARAMETER
     const uint3 next = vload3(min(i + PAIRS_AHEAD, gathered->count - 1), gathered->pairs);
     PREFETCH(cells + 4 * (size_t)next.s0);
     PREFETCH(cells + 4 * (size_t)next.s1);
-    PREFETCH(lists + (size_t)next.s0 * list_size + (hash_of(next.s0, next.s1) & (list_size - 1)));
+    PREFETCH(lists + (size_t)next.s0 * LIST_SIZE + (hash_of(next.s0, next.s1) & (LIST_SIZE - 1)));
     add_border(pair.s0, pair.s1, pair.s2, block, CELL_ARGUMENTS, PAIR_ARGUMENTS);
   }
   begin_gathering(gathered);
@@ -173,34 +173,33 @@ kernel void join_pairs(global uint* restrict neighbours, global uint* restrict p
 }
 
 // Counts each cell's pairs, in which its id is the lower one; and joins what its home and others have added.
-kernel void count_pairs(uint count, uint list_size, global const uint2* restrict lists, global uint* restrict pairs,
+kernel void count_pairs(uint count, global const uint2* restrict lists, global uint* restrict pairs,
                         CELL_PARAMETERS) {
   const uint id = (uint)get_global_id(0);
   if (id >= count) return;
   uint own = pairs[id];
-  for (uint i = 0; i < list_size; ++i) own += lists[(size_t)id * list_size + i].s0 != NO_PAIR;
+  for (uint i = 0; i < LIST_SIZE; ++i) own += lists[(size_t)id * LIST_SIZE + i].s0 != NO_PAIR;
   pairs[id] = own;
   neighbours[id] += own + cells[4 * (size_t)id + 2];
   perimeters[id] += cells[4 * (size_t)id + 3];
 }
 
 // Puts the pairs of each cell's list into the cell's place, sorted; `first` is where that begins in the list of all.
-kernel void place_lists(uint count, uint list_size, global const uint2* restrict lists,
+kernel void place_lists(uint count, global const uint2* restrict lists,
                         global const uint* restrict first, global uint* restrict placed,
                         global uint* restrict pair_list) {
   const uint id = (uint)get_global_id(0);
   if (id >= count) return;
-  global const uint2* const list = lists + (size_t)id * list_size;
-  uint found = 0;
-  for (uint i = 0; i < list_size; ++i) {
-    const uint2 slot = list[i];
-    if (slot.s0 == NO_PAIR) continue;
+  global const uint2* const list = lists + (size_t)id * LIST_SIZE;
+  uint taken = 0;  // bit i: slot i has a pair; a branch on each slot would be mispredicted
+  for (uint i = 0; i < LIST_SIZE; ++i) taken |= (uint)(list[i].s0 != NO_PAIR) << i;
+  placed[id] = popcount(taken);
+  for (; taken != 0; taken &= taken - 1) {
+    const uint2 slot = list[lowest_bit(taken)];
     uint before = 0;
-    for (uint j = 0; j < list_size; ++j) before += list[j].s0 < slot.s0;
+    for (uint j = 0; j < LIST_SIZE; ++j) before += list[j].s0 < slot.s0;
     vstore3((uint3)(id, slot), first[id] + before, pair_list);
-    ++found;
   }
-  placed[id] = found;
 }
 
 // The same of the table's pairs, which come behind those of the lists.

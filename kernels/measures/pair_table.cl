@@ -18,11 +18,16 @@
 #define NO_PAIR 0xffffffffu
 #define MOST_PROBES 64
 
-// What kernels take of the lists, which have list_size slots each, and of the table, which has mask + 1 slots,
+// What kernels take of the lists, which have LIST_SIZE slots each, and of the table, which has mask + 1 slots,
 // table_size of them for each cell. All three numbers of slots are powers of two.
+#if VOROCL_DIMENSIONS == 3
+#define LIST_SIZE 16
+#else
+#define LIST_SIZE 8
+#endif
 #define PAIR_PARAMETERS \
-  uint list_size, global uint2 *lists, uint mask, uint table_size, global uint *table, global uint *overflow
-#define PAIR_ARGUMENTS list_size, lists, mask, table_size, table, overflow
+  global uint2 *lists, uint mask, uint table_size, global uint *table, global uint *overflow
+#define PAIR_ARGUMENTS lists, mask, table_size, table, overflow
 
 static inline uint hash_of(uint a, uint b) {
   uint hash = a * 0x9e3779b1u + b * 0x85ebca77u;
@@ -40,7 +45,7 @@ static inline bool takes(global uint* word, uint id) {
 // found one soon after the other. Where these slots are taken the others are everywhere, and far apart: where few cells
 // have many neighbours, all slots beside those are taken too.
 static inline void add_to_table(uint a, uint b, uint size, PAIR_PARAMETERS) {
-  (void)list_size, (void)lists;
+  (void)lists;
   const uint hash = hash_of(a, b), step = hash * 0x9e3779b1u | 1u;
   for (uint probe = 0; probe < MOST_PROBES; ++probe) {
     const uint beside = a * table_size + ((hash + probe) & (table_size - 1));
@@ -59,9 +64,9 @@ typedef enum { NO_ROOM, KNOWN_PAIR, NEW_PAIR } addition_t;
 // Adds to the pair of a and b in the list of a, which no other work-item may touch meanwhile.
 static inline addition_t add_to_list(uint a, uint b, uint size, PAIR_PARAMETERS) {
   (void)mask, (void)table_size, (void)table, (void)overflow;
-  global uint2* const list = lists + (size_t)a * list_size;
-  for (uint probe = 0, hash = hash_of(a, b); probe < list_size; ++probe) {
-    global uint2* const slot = list + ((hash + probe) & (list_size - 1));
+  global uint2* const list = lists + (size_t)a * LIST_SIZE;
+  for (uint probe = 0, hash = hash_of(a, b); probe < LIST_SIZE; ++probe) {
+    global uint2* const slot = list + ((hash + probe) & (LIST_SIZE - 1));
     const uint2 found = *slot;
     if (found.s0 == b || found.s0 == NO_PAIR) {
       *slot = (uint2)(b, found.s0 == b ? found.s1 + size : size);
@@ -74,9 +79,9 @@ static inline addition_t add_to_list(uint a, uint b, uint size, PAIR_PARAMETERS)
 // The same where others add to the list too, of pairs that each come once.
 static inline addition_t add_to_shared_list(uint a, uint b, uint size, PAIR_PARAMETERS) {
   (void)mask, (void)table_size, (void)table, (void)overflow;
-  global uint* const list = (global uint*)(lists + (size_t)a * list_size);
-  for (uint probe = 0, hash = hash_of(a, b); probe < list_size; ++probe) {
-    global uint* const slot = list + 2 * ((hash + probe) & (list_size - 1));
+  global uint* const list = (global uint*)(lists + (size_t)a * LIST_SIZE);
+  for (uint probe = 0, hash = hash_of(a, b); probe < LIST_SIZE; ++probe) {
+    global uint* const slot = list + 2 * ((hash + probe) & (LIST_SIZE - 1));
     const uint holder = atomic_cmpxchg(slot, NO_PAIR, b);
     if (holder != b && holder != NO_PAIR) continue;
     slot[1] = holder == b ? slot[1] + size : size;

@@ -108,7 +108,7 @@ __attribute__((always_inline)) static inline bool next_run(walk_t* walk) {
                              walk->other[walk->base] != walk->other[walk->base - 1]);
     }
   }
-  walk->to = walk->base + (int)popcount(~walk->changes & (walk->changes - 1));  // the index of the lowest bit
+  walk->to = walk->base + (int)lowest_bit(walk->changes);
   walk->changes &= walk->changes - 1;
   return true;
 }

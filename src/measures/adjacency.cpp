@@ -23,7 +23,7 @@ struct SlotsOfCell {
   explicit SlotsOfCell(const MeasuredDiagram& of, const Blocks& blocks) {
     const bool is_volume = of.grid.is_volume();
     const std::size_t small = blocks.pixels() / (is_volume ? 4096 : 1024);
-    list = is_volume ? 16 : 8;
+    list = is_volume ? 16 : 8;  // LIST_SIZE of pair_table.cl
     table = of.grid.pixels() <= small * of.count() ? list / 4 : list;
   }
 
@@ -95,12 +95,12 @@ std::pair<cl::Event, cl::Event> AdjacencyState::find(const MeasuredDiagram& diag
   run("clear_cells", count, diagram.positions(), count, diagram.size(), blocks.bits(), cells, neighbours,
       perimeters);
   blocks.run(kernels, kernel_file, "find_borders", options, labels, row_behind(diagram, labels, behind),
-             count, diagram.size(), blocks.bits(), cells, neighbours, perimeters, slots.list, lists, mask,
-             slots.table, table, overflow);
-  const cl::Event joined = run("join_pairs", slot_count, neighbours, pairs_of_cell, slots.list, lists, mask,
-                               slots.table, table, overflow);
+             count, diagram.size(), blocks.bits(), cells, neighbours, perimeters, lists, mask, slots.table,
+             table, overflow);
+  const cl::Event joined =
+      run("join_pairs", slot_count, neighbours, pairs_of_cell, lists, mask, slots.table, table, overflow);
   const cl::Event counted =
-      run("count_pairs", count, count, slots.list, lists, pairs_of_cell, cells, neighbours, perimeters);
+      run("count_pairs", count, count, lists, pairs_of_cell, cells, neighbours, perimeters);
   return {begun, count > 0 ? counted : joined};
 }
 
@@ -145,8 +145,7 @@ void AdjacencyState::list() {
     kernels.get(device, kernel_file, name, of->grid, of->options_without_metric())
         .over_items(items, arguments...);
   };
-  const SlotsOfCell slots(*of, Blocks(device, of->grid));
-  run("place_lists", count, of->count(), slots.list, lists, first, placed, pair_list);
+  run("place_lists", count, of->count(), lists, first, placed, pair_list);
   if (!lists_hold_all) {
     run("place_pairs", slot_count, static_cast<cl_uint>(slot_count), table, first, placed, pair_list);
     run("sort_pairs", count, of->count(), first, pair_list);

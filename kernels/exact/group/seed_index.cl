@@ -46,7 +46,6 @@ static inline int rows_of(int height, int level) { return bins_along(frame_heigh
 // The seeds in a row of a bin, given the word that holds it: a bit each, the lowest bit at the left.
 #define ALL_BITS ((1u << BIN) - 1)
 static inline uint row_bits(uint word, int y) { return word >> y % ROWS_OF_WORD * BIN & ALL_BITS; }
-static inline uint lowest_bit(uint bits) { return 31u - clz(bits & -bits); }
 
 // THE LIST. The seeds of each bin stand in it together, row-major, without those that share a pixel; the bins of a
 // row of bins follow each other. `starts` says where a bin's seeds begin, `word_starts` where those of each word of
