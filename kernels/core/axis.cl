@@ -44,6 +44,9 @@ static inline double_v whole_below(double_v number) {
   return IF(whole > number, whole - 1, whole);
 }
 
+// The nearest whole number of one in [0, 2^52), in fewer steps; of a negative one, what is not above 0.
+#define NEAREST_FROM_0(number) (((number) + 4503599627370496.0) - 4503599627370496.0)
+
 // Pixels, which may lie outside the axis, and how many 1/4096 behind their starts coordinates are.
 typedef struct {
   double_v pixel, part;
@@ -66,13 +69,15 @@ static inline double_v periods_beyond(axis_t axis, double_v coordinate) {
 }
 
 // The spots of coordinates, those that are finite.
-static inline spots_t spots_on(axis_t axis, double_v coordinate) {
+__attribute__((always_inline)) static inline spots_t spots_on(axis_t axis, double_v coordinate) {
   double_v position = coordinate, pixel;
   flags is_middle = 0;
   if (axis.kind & AXIS_PERIODIC) {
     position = offset_in_period(axis, coordinate);
     if (!(axis.kind & AXIS_IN_PIXELS)) position = position * axis.count / (axis.to - axis.from);
-    pixel = fmin(whole_below(position), axis.count - 1);  // what is just below the period can be rounded up to its end
+    const double_v whole = NEAREST_FROM_0(position);
+    // What is just below the period can be rounded up to its end.
+    pixel = min(IF(whole > position, whole - 1, whole), axis.count - 1);
   } else if (axis.from == axis.to) {
     is_middle = coordinate == axis.from;
     position = IF(is_middle, (double_v)(floor(axis.count / 2) + 0.5), position);
@@ -89,7 +94,7 @@ static inline spots_t spots_on(axis_t axis, double_v coordinate) {
     pixel = axis.count - 1 - pixel;
     position = axis.count - position;
   }
-  const spots_t spots = {pixel, clamp(nearest_whole((position - pixel) * PARTS_OF_PIXEL), 0.0, PARTS_OF_PIXEL - 1.0)};
+  const spots_t spots = {pixel, clamp(NEAREST_FROM_0((position - pixel) * PARTS_OF_PIXEL), 0.0, PARTS_OF_PIXEL - 1.0)};
   return spots;
 }
 

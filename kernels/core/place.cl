@@ -137,9 +137,12 @@ static inline void store_places(places_t places, int numbers, global int* to, ui
       if (absent_by == MARKED_BY_BYTES) is_absent = (int_v)(GATHERED(marks, ids)) == 0;                      \
       if (absent_by == MARKED_BY_POINTS) is_absent = CONVERT_FLAGS(isnan(at.x));                             \
       placed = places_of(&grid, at, dimensions > 2, is_seed && !is_absent, outside, bits, empty);            \
-      count_in(found + FOUND_ABSENT, is_seed && (is_absent || placed.is_absent));                            \
-      count_in(found + FOUND_OUTSIDE, placed.is_outside);                                                    \
-      note_bad(found + FOUND_BAD, own, placed.is_bad);                                                       \
+      is_absent = is_seed && (is_absent || placed.is_absent);                                                \
+      if (ANY(is_absent || placed.is_outside || placed.is_bad)) {                                            \
+        count_in(found + FOUND_ABSENT, is_absent);                                                           \
+        count_in(found + FOUND_OUTSIDE, placed.is_outside);                                                  \
+        note_bad(found + FOUND_BAD, own, placed.is_bad);                                                     \
+      }                                                                                                      \
     }                                                                                                        \
     const uint some = count + 1 - first;                                                                     \
     store_some(placed.positions, positions + first, some);                                                   \
