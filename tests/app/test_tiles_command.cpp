@@ -137,7 +137,8 @@ BOOST_AUTO_TEST_CASE(what_masks_in_tiles_cannot_have_is_refused) {
           {"m.npy is 150 x 100 pixels and --size says 100 x 150"});
   refuses(folder, "tiles --mask m.npy --labels a.npy --threshold 255", failure,
           {"m.npy has no pixel that is greater than 255"});
-  refuses(folder, "tiles --mask m.zarr --labels a.npy", failure, {"m.zarr", "mask_tiles()"});
+  for (const std::string array : {"m.zarr", "m.zarr/"})
+    refuses(folder, "tiles --mask " + array + " --labels a.npy", failure, {array, "Zarr", "mask_tiles()"});
   for (const std::string file : {"--labels", "--distance"})
     refuses(folder, "tiles --mask m.npy " + file + " m.npy", usage,
             {"would replace the file that --mask reads"});

@@ -65,9 +65,11 @@ class PictureRows : public ImageRows {
 
 std::unique_ptr<ImageRows> open_image(const std::string& path) {
   if (extension_of(path) == ".npy") return open_npy_image(path);
-  if (extension_of(path) == ".zarr")
+  if (extension_of(path.substr(0, path.find_last_not_of('/') + 1)) == ".zarr") {
     throw Error(path +
-                ": arrays of Zarr are read in Python, by vorocl.mask_tiles(); here images and .npy are");
+                " is an array of Zarr: Python's vorocl.mask_tiles() takes it, a slab of rows at a "
+                "time; this command reads images and .npy");
+  }
   std::ifstream file = open_to_read(path);
   std::vector<std::uint8_t> bytes;
   read_more(file, 16, bytes);  // looked at before the others, of which there may be many
