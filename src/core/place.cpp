@@ -27,9 +27,9 @@ bool places_points(const Device& device) {
 
 cl_int numbers_of_place(const Grid& grid) { return has_voxels(grid) ? 4 : 2; }
 
-void place_on_grid(const Device& device, KernelSet& kernels, const Grid& grid, Outside outside,
-                   const PointsThere& points, const Absence& absence, const cl::Buffer& positions,
-                   const cl::Buffer& places, const cl::Buffer& found) {
+cl::Event place_on_grid(const Device& device, KernelSet& kernels, const Grid& grid, Outside outside,
+                        const PointsThere& points, const Absence& absence, const cl::Buffer& positions,
+                        const cl::Buffer& places, const cl::Buffer& found) {
   const auto ends_of = [](const Axis& axis) { return cl_double2{{axis.from(), axis.to()}}; };
   const auto of_axes = [&grid](auto number) {
     return cl_int4{{number(grid.x()), number(grid.y()), number(grid.z()), 0}};
@@ -42,13 +42,13 @@ void place_on_grid(const Device& device, KernelSet& kernels, const Grid& grid, O
   const PixelGrid any(MOST_POINTS_OF_ITEM, 1);  // so that one program serves all grids
   Kernel& kernel =
       kernels.get(device, "core/place.cl", points.are_doubles ? "place_doubles" : "place_floats", any);
-  kernel.over_items(points.count / kernel.vector_width() + 1, *points.points, cl_int{points.dimensions},
-                    has_marks ? absence.marks : positions, absent_by, ends_of(grid.x()), ends_of(grid.y()),
-                    ends_of(grid.z()), of_axes(pixels_of), of_axes(kind_of),
-                    cl_double4{{grid.tilt(), grid.tilt_xz(), grid.tilt_yz(), 0}},
-                    static_cast<cl_int>(outside), static_cast<cl_uint>(points.count), packed.bits,
-                    packed.empty, positions, has_places ? numbers_of_place(grid) : cl_int{0},
-                    has_places ? places : positions, found);
+  return kernel.over_items(points.count / kernel.vector_width() + 1, *points.points,
+                           cl_int{points.dimensions}, has_marks ? absence.marks : positions, absent_by,
+                           ends_of(grid.x()), ends_of(grid.y()), ends_of(grid.z()), of_axes(pixels_of),
+                           of_axes(kind_of), cl_double4{{grid.tilt(), grid.tilt_xz(), grid.tilt_yz(), 0}},
+                           static_cast<cl_int>(outside), static_cast<cl_uint>(points.count), packed.bits,
+                           packed.empty, positions, has_places ? numbers_of_place(grid) : cl_int{0},
+                           has_places ? places : positions, found);
 }
 
 GivenPoints read_points(const Device& device, const PointsThere& points) {

@@ -191,12 +191,23 @@ void SeedsState::place(const Grid& grid, const Points& points) {
   next.is_off_centre = options.snap == Snap::none;
   // The host looks whether voxels are crowded.
   if (beyond == 0 && (next.is_off_centre || !has_voxels(grid)) && kernels_place(device, grid)) {
-    const PointsThere points_there = {rooms_of_points_.take(device, numbers->size() * sizeof(double)),
-                                      points.size(), true, given.dimensions};
-    upload_of_points_.start(device, *points_there.points, numbers);
     if (found_() == nullptr)
       found_ = allocate_with(device, std::vector<cl_uint>(4), "the check of the points");
-    place_by_kernel(next, points_there, {{}, true}, found_);
+    const std::size_t bytes = numbers->size() * sizeof(double);
+    const auto place_from = [&](std::shared_ptr<const cl::Buffer> there_points) {
+      return place_by_kernel(next, {std::move(there_points), points.size(), true, given.dimensions},
+                             {{}, true}, found_);
+    };
+    if (bytes > 0 && shares_memory(device)) {
+      upload_of_points_.start_where_they_are(device, numbers, [&] {
+        return place_from(
+            std::make_shared<const cl::Buffer>(buffer_at(device, numbers->data(), bytes, "the points")));
+      });
+    } else {
+      const std::shared_ptr<const cl::Buffer> room = rooms_of_points_.take(device, bytes);
+      upload_of_points_.start(device, *room, numbers);
+      place_from(room);
+    }
   } else if (has_voxels(grid)) {
     next.are_points = next.is_off_centre;
     upload_positions(next, voxels_of(next));
@@ -209,8 +220,8 @@ void SeedsState::place(const Grid& grid, const Points& points) {
   commit(std::make_shared<const SeedsFrame>(std::move(next)), std::move(there));
 }
 
-void SeedsState::place_by_kernel(SeedsFrame& next, const PointsThere& points, const Absence& absence,
-                                 const cl::Buffer& found) {
+cl::Event SeedsState::place_by_kernel(SeedsFrame& next, const PointsThere& points, const Absence& absence,
+                                      const cl::Buffer& found) {
   find_way_to(next);
   next.are_points = next.is_off_centre || next.grid.is_tilted();
   const std::shared_ptr<cl::Buffer> positions = room_for_positions(points.count);
@@ -219,8 +230,8 @@ void SeedsState::place_by_kernel(SeedsFrame& next, const PointsThere& points, co
     places = rooms_of_places_.take(
         device, (points.count + 1) * word * static_cast<std::size_t>(numbers_of_place(next.grid)));
   next.whole = std::make_shared<const Placement>(Placement{whole_of(next.grid), positions, places});
-  place_on_grid(device, kernels, next.grid, options.outside, points, absence, *positions,
-                places ? *places : cl::Buffer(), found);
+  return place_on_grid(device, kernels, next.grid, options.outside, points, absence, *positions,
+                       places ? *places : cl::Buffer(), found);
 }
 
 void SeedsState::upload_positions(SeedsFrame& next, std::vector<std::uint32_t>&& packed) {

@@ -116,8 +116,8 @@ struct SeedsState {
   void upload_positions(SeedsFrame& next, std::vector<std::uint32_t>&& packed);
 
   /// Enqueues a kernel that places the seeds of the next frame. All lie in its grid.
-  void place_by_kernel(SeedsFrame& next, const PointsThere& points, const Absence& absence,
-                       const cl::Buffer& found);
+  cl::Event place_by_kernel(SeedsFrame& next, const PointsThere& points, const Absence& absence,
+                            const cl::Buffer& found);
 
   std::shared_ptr<const SeedsFrame> frame_;
   Recycled<double> numbers_;

@@ -137,20 +137,31 @@ class Upload {
 
   /// The same of values that somebody else has besides.
   void start(const Device& device, const cl::Buffer& buffer, Values values) {
-    const cl::CommandQueue& queue = device.queue();  // refuses a forked child
-    if (copied_() != nullptr) check(clWaitForEvents(1, &copied_()), "waiting for values to be copied");
-    copied_ = cl::Event();
-    values_ = std::move(values);
+    keep(device, std::move(values));
     if (values_->empty()) return;
-    queue_ = queue;
-    process_ = process_number();
     check(clEnqueueWriteBuffer(queue_(), buffer(), CL_FALSE, 0, values_->size() * sizeof(T), values_->data(),
                                0, nullptr, &copied_()),
           "writing a buffer");
     Internal::state(device).enqueued(copied_);
   }
 
+  /// Keeps values that the device reads where they are, until it has done what `read()` enqueues.
+  template <typename Read>
+  void start_where_they_are(const Device& device, Values values, Read read) {
+    keep(device, std::move(values));
+    copied_ = read();
+  }
+
  private:
+  void keep(const Device& device, Values values) {
+    const cl::CommandQueue& queue = device.queue();  // refuses a forked child
+    if (copied_() != nullptr) check(clWaitForEvents(1, &copied_()), "waiting for values to be copied");
+    copied_ = cl::Event();
+    values_ = std::move(values);
+    queue_ = queue;
+    process_ = process_number();
+  }
+
   Values values_;
   cl::CommandQueue queue_;
   cl::Event copied_;
