@@ -110,41 +110,29 @@ struct RandomCase {
 
 }  // namespace
 
-BOOST_AUTO_TEST_CASE(labels_are_those_of_the_points) {
+BOOST_AUTO_TEST_CASE(labels_are_those_of_the_points_and_of_their_weights) {
   if (!can_be_exact()) return;
   const Device short_list_device = with_lists(test_device(), ListLength::two_entries);
-  for (unsigned number = 0; number < (long_tests ? 100000 : 2000); ++number) {
-    const RandomCase random(number);
-    const bool short_lists_too = number % 4 == 1 && number % 5 == 0;
-    const Labels labels =
-        labels_of(short_lists_too ? short_list_device : test_device(), random.grid, random.seeds);
-    std::size_t wrong = 0;
-    each_voxel(random.grid, [&](const Spot& voxel, std::size_t i) {
-      if (random.seeds.size() * labels.size() > 400000 && i % 7 != number % 7) return;
-      wrong += labels[i] != label_by_definition(random.grid, random.seeds, voxel) ? 1 : 0;
-    });
-    BOOST_TEST(wrong == 0u, "case " << number << ", kind " << random.kind << ": " << size_text(random.grid)
-                                    << ", " << random.seeds.size() << " seeds: " << wrong << " wrong");
-  }
-}
-
-BOOST_AUTO_TEST_CASE(labels_are_those_of_the_weights) {
-  if (!can_be_exact()) return;
-  const Device short_list_device = with_lists(test_device(), ListLength::two_entries);
-  for (unsigned number = 0; number < (long_tests ? 100000 : 2000); ++number) {
-    if (number % 4 == 3) continue;  // no cubes
-    RandomCase random(number);
+  for (unsigned number = 0; number < (long_tests ? 200000 : 4000); ++number) {
+    const bool are_weighted = number % 2 == 1;
+    const unsigned of_pair = number / 2;
+    if (are_weighted && of_pair % 4 == 3) continue;  // no cubes
+    RandomCase random(of_pair);
     const Grid& grid = random.grid;
     const std::size_t count = random.seeds.size();
-    const double side = std::cbrt(static_cast<double>(grid.pixels()) / static_cast<double>(count + 1)) + 1;
-    const std::vector<double> weights = hard_weights(count, side, random.rng);
-    const auto lags = lags_by_definition(weights, [](std::size_t) { return true; });
-    const bool short_lists_too = number % 4 == 1 && number % 5 == 0;
+    std::vector<double> weights;
+    std::vector<std::int64_t> lags;
+    if (are_weighted) {
+      const double side = std::cbrt(static_cast<double>(grid.pixels()) / static_cast<double>(count + 1)) + 1;
+      weights = hard_weights(count, side, random.rng);
+      lags = lags_by_definition(weights, [](std::size_t) { return true; });
+    }
+    const bool short_lists_too = of_pair % 4 == 1 && of_pair % 5 == 0;
     const Labels labels =
         labels_of(short_lists_too ? short_list_device : test_device(), grid, random.seeds, weights);
     std::size_t wrong = 0;
     each_voxel(grid, [&](const Spot& voxel, std::size_t i) {
-      if (count * labels.size() > 400000 && i % 7 != number % 7) return;
+      if (count * labels.size() > 400000 && i % 7 != of_pair % 7) return;
       wrong += labels[i] != label_by_definition(grid, random.seeds, voxel, lags) ? 1 : 0;
     });
     BOOST_TEST(wrong == 0u, "case " << number << ", kind " << random.kind << ": " << size_text(grid) << ", "
