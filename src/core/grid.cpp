@@ -6,7 +6,7 @@
 #include <sstream>
 #include <string>
 
-#include "core/point_placement.hpp"
+#include "core/placement.hpp"
 #include "runtime/pixel_grid.hpp"
 #include "vorocl/error.hpp"
 

@@ -1,8 +1,17 @@
 #include "core/placement.hpp"
 
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <string>
 #include <utility>
 
+#include "core/seeds_frame.hpp"
+#include "core/window_places.hpp"
 #include "runtime/buffer.hpp"
+#include "vorocl/error.hpp"
+// Last: it defines macros.
+#include "exact/sizes.cl"
 
 namespace vorocl {
 
@@ -67,6 +76,169 @@ std::shared_ptr<const Placement> place_in_window(const Device& device, const Win
   packed.push_back(absent_position);
   return std::make_shared<const Placement>(Placement{
       shown, std::make_shared<const cl::Buffer>(allocate_with(device, packed, "the seeds")), nullptr});
+}
+
+namespace {
+
+constexpr std::int64_t most_pixels_away = std::int64_t{1} << AWAY_BITS;
+static_assert(Window::max_side <= 1 << SIDE_BITS);
+
+Region centres_of(const Region& pixels) {
+  return {centre_of(pixels.left), centre_of(pixels.top), centre_of(pixels.right), centre_of(pixels.bottom)};
+}
+
+bool fits(const Place& place) {
+  const std::int64_t most = in_fractions(most_pixels_away);
+  return place.x >= -most && place.x <= most && place.y >= -most && place.y <= most;
+}
+
+cl_int2 as_int2(const Place& place) { return {{static_cast<cl_int>(place.x), static_cast<cl_int>(place.y)}}; }
+
+constexpr cl_int2 absent_point = {{absent_coordinate, 0}};
+
+/// The place itself if it is near, else that of its images which is nearest to the window's first pixel.
+Place near_image(const Place& place, const Images& images) {
+  if (fits(place)) return place;
+  const auto along = [](std::int64_t at, std::int64_t period) {
+    return period == 0 ? at
+                       : at - period * std::llround(static_cast<double>(at) / static_cast<double>(period));
+  };
+  return {along(place.x, images.x), along(place.y, images.y)};
+}
+
+/// By id: numbers in the order of where seeds lie themselves, of those that own places.
+template <typename PlaceOf>
+std::vector<cl_int2> order_of(std::vector<cl_uint> ids, std::size_t count, PlaceOf place_of) {
+  const auto position = [&](cl_uint id) {
+    const Place place = place_of(id);
+    return std::make_pair(place.y, place.x);
+  };
+  std::sort(ids.begin(), ids.end(), [&](cl_uint a, cl_uint b) { return position(a) < position(b); });
+  std::vector<cl_int2> order(count, absent_point);
+  cl_int number = 0;
+  for (std::size_t i = 0; i < ids.size(); ++i) {
+    if (i > 0 && position(ids[i - 1]) < position(ids[i])) ++number;
+    order[ids[i]] = {{number, number}};
+  }
+  return order;
+}
+
+/// What does not depend on where the seeds are; all of them are places themselves.
+PointPlacement placement_of(const Window& window, const PixelGrid& shown, const cl::Buffer& seeds,
+                            std::size_t count) {
+  const Region region = labelled_region(window);
+  const auto as_int = [](std::int64_t number) { return static_cast<cl_int>(number); };
+  const Periods periods(window.grid());
+  return {shown,
+          seeds,
+          seeds,
+          seeds,
+          {},
+          static_cast<cl_uint>(count),
+          {{as_int(region.left), as_int(region.top), as_int(region.right), as_int(region.bottom)}},
+          {{as_int(periods.x), as_int(periods.y), as_int(window.grid().shift()), 0}}};
+}
+
+}  // namespace
+
+std::shared_ptr<const PointPlacement> placed_points(const Window& window, const PixelGrid& shown,
+                                                    const cl::Buffer& places, std::size_t count) {
+  return std::make_shared<const PointPlacement>(placement_of(window, shown, places, count));
+}
+
+std::shared_ptr<const PointPlacement> place_points(const Device& device, const Window& window,
+                                                   const PixelGrid& shown, const std::vector<Place>& given,
+                                                   bool are_points, const Lags* lags) {
+  const std::size_t count = given.size();
+  // So that all seeds are near where they lie themselves.
+  constexpr std::int64_t most_if_tilted = most_pixels_away / 2;
+  const Grid& grid = window.grid();
+  if (grid.is_tilted() && std::max(grid.width(), grid.height()) > most_if_tilted) {
+    throw Error("the grid is tilted and has " + std::to_string(grid.width()) + " x " +
+                std::to_string(grid.height()) + " pixels; diagrams of such grids take sides of at most " +
+                std::to_string(most_if_tilted));
+  }
+  const auto place_of = [&](std::size_t id) {
+    return given[id] - Place{in_fractions(window.x()), in_fractions(window.y())};
+  };
+  const Images images(grid, fractions_of_pixel);
+  bool all_inside = true, all_near = true, seeds_fit = true, places_fit = true;
+  for (std::size_t id = 0; id < count; ++id) {
+    if (is_absent(given[id])) continue;
+    const Place place = place_of(id);
+    all_near = all_near && fits(place);
+    seeds_fit = seeds_fit && fits(near_image(place, images));
+    all_inside = all_inside && place.x >= 0 && place.x < in_fractions(shown.width()) && place.y >= 0 &&
+                 place.y < in_fractions(shown.height());
+  }
+
+  std::vector<Place> places;
+  std::vector<cl_uint> ids;
+  const bool go_round = all_inside && kernels_go_round(window, shown);
+  const Region region = labelled_region(window);
+  if (!go_round && !region.empty()) {
+    const Region centres = centres_of(region);
+    const auto each = [&](auto use) {
+      for (std::size_t id = 0; id < count; ++id) {
+        if (is_absent(given[id])) continue;
+        each_place(centres, images, place_of(id), [&](const Place& place) { use(place, id); });
+      }
+    };
+    const auto lag_of = [lags](std::size_t id) {
+      constexpr double unit = fractions_of_pixel * (fractions_of_pixel >> LAG_BITS);
+      return lags == nullptr ? 0.0 : unit * lags->of_seeds[id];
+    };
+    Rim rim(centres);
+    each([&](const Place& place, std::size_t id) { rim.add(place, lag_of(id)); });
+    each([&](const Place& place, std::size_t id) {
+      if (rim.rules_out(place, lag_of(id))) return;
+      if (!fits(place) && are_points) {
+        throw Error("seed " + std::to_string(id) + " may own pixels of the diagram, and lies more than " +
+                    std::to_string(most_pixels_away) +
+                    " pixels from its window's first one: that is too far for positions within a pixel; snap "
+                    "the seeds to pixels, or take a window nearer to them");
+      }
+      places_fit = places_fit && fits(place);
+      places.push_back(place);
+      ids.push_back(static_cast<cl_uint>(id));
+    });
+  }
+
+  const auto in_whole_pixels = [](const Place& place) {
+    return as_int2({pixel_of(place.x), pixel_of(place.y)});
+  };
+  const bool seeds_in_pixels = !seeds_fit && !are_points;
+  std::vector<cl_int2> seeds;
+  seeds.reserve(count + 1);
+  for (std::size_t id = 0; id < count; ++id) {
+    if (is_absent(given[id])) {
+      seeds.push_back(absent_point);
+    } else if (seeds_in_pixels) {
+      seeds.push_back(in_whole_pixels(place_of(id)));
+    } else {
+      const Place near = near_image(place_of(id), images);
+      seeds.push_back(fits(near) ? as_int2(near) : absent_point);
+    }
+  }
+  seeds.push_back(absent_point);
+  PointPlacement placed = placement_of(window, shown, allocate_with(device, seeds, "the seeds"), count);
+  if (go_round) return std::make_shared<const PointPlacement>(std::move(placed));
+
+  placed.grid = shown.without_periods();
+  placed.seeds_in_pixels = seeds_in_pixels;
+  placed.places_in_pixels = !places_fit;
+  placed.count = static_cast<cl_uint>(places.size());
+  if (!places.empty()) {
+    std::vector<cl_int2> of_places;
+    of_places.reserve(places.size());
+    for (const Place& place : places)
+      of_places.push_back(places_fit ? as_int2(place) : in_whole_pixels(place));
+    placed.places = allocate_with(device, of_places, "the seeds of a window");
+    placed.ids = allocate_with(device, ids, "the seeds of a window");
+    if (!all_near)
+      placed.order = allocate_with(device, order_of(ids, count, place_of), "the order of the seeds");
+  }
+  return std::make_shared<const PointPlacement>(std::move(placed));
 }
 
 }  // namespace vorocl

@@ -10,7 +10,6 @@
 #include <vector>
 
 #include "core/placement.hpp"
-#include "core/point_placement.hpp"
 #include "core/snapping.hpp"
 #include "vorocl/device.hpp"
 #include "vorocl/error.hpp"
