@@ -25,7 +25,7 @@ kernel void place_edges(SITE_PARAMETERS, global const uint* restrict ids, global
   line_t before = found_line(&tree, found[begin + size - 1], at, site);
   for (uint i = 0; i < size; ++i) {
     const line_t line = found_line(&tree, found[begin + i], at, site);
-    cells[offset + i] = line.cell == NO_CELL ? NO_CELL : ids[line.cell];
+    cells[offset + i] = line.site == NO_CELL ? NO_CELL : ids[line.site];
     vertices[offset + i] = crossing(before, line);
     before = line;
   }

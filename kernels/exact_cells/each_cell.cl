@@ -5,6 +5,14 @@
 #define VOROCL_EXACT_CELLS_EACH_CELL
 
 #ifdef LARGE_CELLS
+static inline void place_cell(cell_t* cell, global uchar* memory, int room) {
+  cell->room = room;
+#define PLACED_LIST(type, name, length) \
+  cell->name = (global type*)memory;    \
+  memory += (size_t)(length) * sizeof(type);
+  CELL_LISTS(PLACED_LIST)
+}
+
 // The cells that had no room in private memory, from a list, each in so many bytes of global memory.
 #define CELL_KERNEL(verb, PARAMETERS)                                                                                 \
   kernel __attribute__((vec_type_hint(CELL_VECTOR))) void verb##_large_cells(                                         \
@@ -31,7 +39,7 @@
   const tree_t tree = SITE_ARGUMENTS;                  \
   near_t near;                                         \
   find_near(&near, &tree, first >> FAN_BITS);          \
-  PRIVATE_CELL(cell)                                   \
+  cell_t cell;                                         \
   for (uint site = first; site < min(first + of_item, count); ++site) call;
 #endif
 

@@ -15,6 +15,17 @@
 #define MOST_LEVELS 10       // of boxes, for 2^30 sites
 #define NO_CELL 0xffffffffu  // behind a side of the box
 
+// Where cells lie: private for the many, global for those that have no room there. Functions that say ROOM have a `cell`.
+#ifdef LARGE_CELLS
+#define CELL_SPACE global
+#define DECLARED_LIST(type, name, length) global type* name;
+#define ROOM cell->room
+#else
+#define CELL_SPACE private
+#define DECLARED_LIST(type, name, length) type name[length];
+#define ROOM PRIVATE_ROOM
+#endif
+
 // Which sites there are: in the kernels' arguments, and as what functions take.
 #define SITE_PARAMETERS                                                                                  \
   uint count, global const NUMBER *sites, global const NUMBER *boxes, global const uint *levels,         \

@@ -5,32 +5,33 @@
 
 #define FOUND_EDGE uint2
 
-#include "exact_cells/each_cell.cl"
-#include "exact_cells/found.cl"
 #include "exact_cells/search.cl"
 
+#include "exact_cells/each_cell.cl"
+#include "exact_cells/found.cl"
+
 // The edge that begins in the lowest vertex, and of two in the left one.
-static inline int first_edge(const cell_t* polygon) {
+static inline int first_edge(const cell_t* cell) {
   int lowest = 0;
-  for (int k = 1; k < polygon->size; ++k) {
-    const double y = polygon->y[k], least = polygon->y[lowest];
-    lowest = y < least || (y == least && polygon->x[k] < polygon->x[lowest]) ? k : lowest;
+  for (int k = 1; k < cell->size; ++k) {
+    const double y = cell->y[k], least = cell->y[lowest];
+    lowest = y < least || (y == least && cell->x[k] < cell->x[lowest]) ? k : lowest;
   }
-  return lowest + 1 < polygon->size ? lowest + 1 : 0;
+  return lowest + 1 < cell->size ? lowest + 1 : 0;
 }
 
 // Sums are taken in half steps from the site, or with weights, which may put a cell far from its site, from a
 // vertex: where they lose least.
-static inline void measure_cell(cell_t* polygon, const tree_t* tree, const near_t* near, MEASURE_PARAMETERS,
+static inline void measure_cell(cell_t* cell, const tree_t* tree, const near_t* near, MEASURE_PARAMETERS,
                                 uint site) {
   const int2 at = site_at(tree, site);
-  begin_polygon(polygon, tree, at, site);
-  cut_by_all(polygon, tree, near, site, at);
-  if (polygon->is_full) {
+  begin_cell(cell, tree, at, site);
+  cut_by_all(cell, tree, near, site, at);
+  if (cell->is_full) {
     queue[atomic_inc(counters + 1)] = site;
     return;
   }
-  const uint id = ids[site], edge_count = (uint)polygon->size;
+  const uint id = ids[site], edge_count = (uint)cell->size;
   const uint begin = atomic_add(counters, edge_count);
   begins[site] = begin;
   edge_counts[id] = edge_count;
@@ -38,21 +39,21 @@ static inline void measure_cell(cell_t* polygon, const tree_t* tree, const near_
   uint touching = 0;
   double area = 0, perimeter = 0;
   double2 moment = 0;
-  int k = first_edge(polygon);
-  const int before = (k > 0 ? k : polygon->size) - 1;
-  double2 from = (double2)(polygon->x[before], polygon->y[before]);
+  int k = first_edge(cell);
+  const int before = (k > 0 ? k : cell->size) - 1;
+  double2 from = (double2)(cell->x[before], cell->y[before]);
   const double2 base = tree->lags != 0 ? from : 0;
   from -= base;
   for (uint i = 0; i < edge_count; ++i) {
-    const double2 to = (double2)(polygon->x[k], polygon->y[k]) - base, way = to - from;
+    const double2 to = (double2)(cell->x[k], cell->y[k]) - base, way = to - from;
     const double part = from.s0 * to.s1 - to.s0 * from.s1;
     area += part;
     moment += part * (from + to);
     perimeter += sqrt(way.s0 * way.s0 + way.s1 * way.s1);
-    touching += polygon->cell[k] == NO_CELL ? 1u : 0u;
-    found[begin + i] = (uint2)(polygon->cell[k], as_uint(polygon->image[k]));
+    touching += cell->sites[k] == NO_CELL ? 1u : 0u;
+    found[begin + i] = (uint2)(cell->sites[k], as_uint(cell->images[k]));
     from = to;
-    k = k + 1 < polygon->size ? k + 1 : 0;
+    k = k + 1 < cell->size ? k + 1 : 0;
   }
   neighbours[id] = edge_count - touching;
   flags[id] = (uchar)((touching > 0 ? TOUCHES_BORDER : 0u) | CERTIFIED);

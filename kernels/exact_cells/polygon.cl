@@ -23,75 +23,53 @@
 #include "exact_cells/lanes.cl"
 #include "exact_cells/wide.cl"
 
-// Where polygons lie: private for the many, global for those with more edges than that has room for.
-#ifdef LARGE_CELLS
-#define POLYGON_SPACE global
-#else
-#define POLYGON_SPACE private
-#define ROOM 24  // cells of random points have 6 edges in the mean, and one in 10^10 as many as 20
-#define PRIVATE_CELL(cell)                                    \
-  double memory[POLYGON_BYTES(ROOM) / sizeof(double)];        \
-  cell_t cell;                                                \
-  place_cell(&cell, (private uchar*)memory, ROOM);
-#endif
 #define CELL_VECTOR float8
 #define CELL_BYTES POLYGON_BYTES
-
-#define LANES 8  // vertices that a line is tried against at once
+#define PRIVATE_ROOM 24  // for edges: cells of random points have 6 in the mean, and one in 10^10 as many as 20
+#define LANES 8          // vertices that a line is tried against at once
 
 // A line a x + b y = c, with the site behind it. `image` says which of its images, or which side of the box this is.
 typedef struct {
   long c;
   int a, b;
-  uint cell;
+  uint site;
   int image;
 } line_t;
 
-// A ring of edges, counter-clockwise where y points up, as lists. Vertex k is where edge k ends, and edge k +
-// 1 begins. Behind the last one come vertices that are the site itself, which do not count.
+// A ring of edges, counter-clockwise where y points up, as lists, POLYGON_BYTES of sizes.cl in all. Vertex k is where edge
+// k ends, and edge k + 1 begins. Behind the last one come vertices that are the site itself, which do not count.
+// Vertices in half steps; lines; vertices in steps, and their squared distances, with a margin.
+#define CELL_LISTS(LIST)              \
+  LIST(double, x, ROOM + LANES)       \
+  LIST(double, y, ROOM + LANES)       \
+  LIST(long, c, ROOM + LANES)         \
+  LIST(int, a, ROOM + LANES)          \
+  LIST(int, b, ROOM + LANES)          \
+  LIST(uint, sites, ROOM + LANES)     \
+  LIST(int, images, ROOM + LANES)     \
+  LIST(float, rough_x, ROOM + LANES)  \
+  LIST(float, rough_y, ROOM + LANES)  \
+  LIST(float, reaches, ROOM + LANES)
+
 typedef struct {
-  POLYGON_SPACE double* x;  // vertices, in half steps
-  POLYGON_SPACE double* y;
-  POLYGON_SPACE float* rough_x;  // the same in steps
-  POLYGON_SPACE float* rough_y;
-  POLYGON_SPACE float* reaches;  // their squared distances, with a margin
-  POLYGON_SPACE long* c;         // lines
-  POLYGON_SPACE int* a;
-  POLYGON_SPACE int* b;
-  POLYGON_SPACE uint* cell;
-  POLYGON_SPACE int* image;
+  CELL_LISTS(DECLARED_LIST)
   int room, size;  // in edges
   double lag;      // of the site
   float reach;     // the largest; 0 if nothing is left to be cut
   bool is_full;
 } cell_t;
 
-static inline void place_cell(cell_t* polygon, POLYGON_SPACE uchar* memory, int room) {
-  const int length = room + LANES;
-  polygon->x = (POLYGON_SPACE double*)memory;
-  polygon->y = polygon->x + length;
-  polygon->c = (POLYGON_SPACE long*)(polygon->x + 2 * length);
-  polygon->rough_x = (POLYGON_SPACE float*)(polygon->x + 3 * length);
-  polygon->rough_y = polygon->rough_x + length;
-  polygon->reaches = polygon->rough_x + 2 * length;
-  polygon->a = (POLYGON_SPACE int*)(polygon->x + 5 * length);
-  polygon->b = polygon->a + length;
-  polygon->cell = (POLYGON_SPACE uint*)(polygon->x + 6 * length);
-  polygon->image = polygon->a + 3 * length;
-  polygon->room = room;
-}
-
-static inline line_t line_of(const cell_t* polygon, int k) {
-  const line_t line = {polygon->c[k], polygon->a[k], polygon->b[k], polygon->cell[k], polygon->image[k]};
+static inline line_t line_of(const cell_t* cell, int k) {
+  const line_t line = {cell->c[k], cell->a[k], cell->b[k], cell->sites[k], cell->images[k]};
   return line;
 }
 
-static inline void set_line(cell_t* polygon, int k, line_t line) {
-  polygon->c[k] = line.c;
-  polygon->a[k] = line.a;
-  polygon->b[k] = line.b;
-  polygon->cell[k] = line.cell;
-  polygon->image[k] = line.image;
+static inline void set_line(cell_t* cell, int k, line_t line) {
+  cell->c[k] = line.c;
+  cell->a[k] = line.a;
+  cell->b[k] = line.b;
+  cell->sites[k] = line.site;
+  cell->images[k] = line.image;
 }
 
 // a b' - a' b of two lines' directions.
@@ -130,14 +108,14 @@ static inline double4 crossings(line_t before, line_t line, line_t after) {
 #define ROUGH_MARGIN 1.00001f  // floats make an error of less than a millionth in a squared distance
 
 // Returns its squared distance, with the margin.
-static inline float set_vertex(cell_t* polygon, int k, double2 vertex) {
+static inline float set_vertex(cell_t* cell, int k, double2 vertex) {
   const float rough_x = convert_float(vertex.s0) * 0.5f, rough_y = convert_float(vertex.s1) * 0.5f;
-  polygon->x[k] = vertex.s0;
-  polygon->y[k] = vertex.s1;
-  polygon->rough_x[k] = rough_x;
-  polygon->rough_y[k] = rough_y;
+  cell->x[k] = vertex.s0;
+  cell->y[k] = vertex.s1;
+  cell->rough_x[k] = rough_x;
+  cell->rough_y[k] = rough_y;
   const float reach = (rough_x * rough_x + rough_y * rough_y) * ROUGH_MARGIN;
-  polygon->reaches[k] = reach;
+  cell->reaches[k] = reach;
   return reach;
 }
 
@@ -148,8 +126,8 @@ static inline float greatest_of(float8 numbers) {
 }
 
 // On which side of a line a vertex is, in whole numbers: 1 is beyond it, 0 on it.
-static inline int exact_side(const cell_t* polygon, int k, line_t line) {
-  const line_t p = line_of(polygon, k), q = line_of(polygon, k + 1 < polygon->size ? k + 1 : 0);
+static inline int exact_side(const cell_t* cell, int k, line_t line) {
+  const line_t p = line_of(cell, k), q = line_of(cell, k + 1 < cell->size ? k + 1 : 0);
   return -sign_of(
       sum(sum(product(p.c, cross_of(q, line)), product(q.c, cross_of(line, p))), product(line.c, cross_of(p, q))));
 }
@@ -164,15 +142,15 @@ static inline int bits_of_longs(long8 lanes) {
 static inline int highest_bit(int bits) { return 31 - (int)clz(bits); }
 
 // Which of the vertices from k on, as bits, are beyond a line (s0), and which are beyond or on it (s1).
-static inline int2 beyond(const cell_t* polygon, int k, line_t line) {
-  const double8 ax = convert_double(line.a) * vload8(0, polygon->x + k);
-  const double8 by = convert_double(line.b) * vload8(0, polygon->y + k);
+static inline int2 beyond(const cell_t* cell, int k, line_t line) {
+  const double8 ax = convert_double(line.a) * vload8(0, cell->x + k);
+  const double8 by = convert_double(line.b) * vload8(0, cell->y + k);
   const double c = convert_double(line.c);
   const double8 over = ax + by - c;
   const double8 doubt = 0x1p-49 * (fabs(ax) + fabs(by) + fabs(c));
   int is_beyond = bits_of_longs(over > doubt), is_or_on = is_beyond;
   for (int unsure = bits_of_longs(!(fabs(over) > doubt)); unsure != 0; unsure &= unsure - 1) {
-    const int lane = lowest_bit(unsure), side = exact_side(polygon, k + lane, line);
+    const int lane = lowest_bit(unsure), side = exact_side(cell, k + lane, line);
     is_beyond |= (side > 0) << lane;
     is_or_on |= (side >= 0) << lane;
   }
@@ -180,52 +158,41 @@ static inline int2 beyond(const cell_t* polygon, int k, line_t line) {
 }
 
 // Moves the edges from `from` on, and what is behind them.
-static inline void move_edges(cell_t* polygon, int from, int to, int count) {
+static inline void move_edges(cell_t* cell, int from, int to, int count) {
   const int last = (count - 1) & ~(LANES - 1), step = to < from ? LANES : -LANES;
-  for (int k = to < from ? 0 : last; k >= 0 && k <= last; k += step) {
-    const int source = from + k, goal = to + k;
-    vstore8(vload8(0, polygon->x + source), 0, polygon->x + goal);
-    vstore8(vload8(0, polygon->y + source), 0, polygon->y + goal);
-    vstore8(vload8(0, polygon->rough_x + source), 0, polygon->rough_x + goal);
-    vstore8(vload8(0, polygon->rough_y + source), 0, polygon->rough_y + goal);
-    vstore8(vload8(0, polygon->reaches + source), 0, polygon->reaches + goal);
-    vstore8(vload8(0, polygon->c + source), 0, polygon->c + goal);
-    vstore8(vload8(0, polygon->a + source), 0, polygon->a + goal);
-    vstore8(vload8(0, polygon->b + source), 0, polygon->b + goal);
-    vstore8(vload8(0, polygon->cell + source), 0, polygon->cell + goal);
-    vstore8(vload8(0, polygon->image + source), 0, polygon->image + goal);
-  }
+#define MOVE_EIGHT(type, name, length) vstore8(vload8(0, cell->name + from + k), 0, cell->name + to + k);
+  for (int k = to < from ? 0 : last; k >= 0 && k <= last; k += step) { CELL_LISTS(MOVE_EIGHT) }
 }
 
 // Sets how many edges there are. Behind the last one come vertices that are the site itself, as far as
 // vectors reach.
-static inline void end_edges(cell_t* polygon, int size) {
-  polygon->size = size;
-  vstore8((double8)0, 0, polygon->x + size);
-  vstore8((double8)0, 0, polygon->y + size);
-  vstore8((float8)0, 0, polygon->reaches + size);
+static inline void end_edges(cell_t* cell, int size) {
+  cell->size = size;
+  vstore8((double8)0, 0, cell->x + size);
+  vstore8((double8)0, 0, cell->y + size);
+  vstore8((float8)0, 0, cell->reaches + size);
 }
 
 // Weights may put bisectors of several sites on one line. What lies behind it is the farthest one's.
-static inline void take_edge(cell_t* polygon, line_t line) {
-  for (int k = 0; k < polygon->size; ++k) {
-    const line_t edge = line_of(polygon, k);
+static inline void take_edge(cell_t* cell, line_t line) {
+  for (int k = 0; k < cell->size; ++k) {
+    const line_t edge = line_of(cell, k);
     const bool is_longer = abs(line.a) > abs(edge.a) || abs(line.b) > abs(edge.b);
     const bool is_parallel = cross_of(edge, line) == 0 && (long)edge.a * line.a + (long)edge.b * line.b > 0;
-    if (edge.cell == NO_CELL || !is_longer || !is_parallel) continue;
+    if (edge.site == NO_CELL || !is_longer || !is_parallel) continue;
     const bool is_steep = edge.a != 0;
     const long of_edge = is_steep ? edge.a : edge.b, of_line = is_steep ? line.a : line.b;
-    if (sign_of(sum(product(edge.c, of_line), product(line.c, -of_edge))) == 0) set_line(polygon, k, line);
+    if (sign_of(sum(product(edge.c, of_line), product(line.c, -of_edge))) == 0) set_line(cell, k, line);
   }
 }
 
 // Cuts off what lies beyond a line.
-static inline void cut(cell_t* polygon, line_t line) {
-  const int size = polygon->size;
+static inline void cut(cell_t* cell, line_t line) {
+  const int size = cell->size;
   float8 reaches = 0;  // of the vertices that are kept
   int is_cut = 0, on = 0, first_gone = size, last_gone = -1, first_kept = size, last_kept = -1;
   for (int k = 0; k < size; k += LANES) {
-    const int2 sides = beyond(polygon, k, line);
+    const int2 sides = beyond(cell, k, line);
     const int there = (1 << min(size - k, LANES)) - 1, gone = sides.s1 & there, kept = ~sides.s1 & there;
     is_cut |= sides.s0 & there;
     on += (int)popcount((uint)(gone & ~sides.s0));
@@ -233,13 +200,13 @@ static inline void cut(cell_t* polygon, line_t line) {
     last_gone = gone != 0 ? k + highest_bit(gone) : last_gone;
     first_kept = kept != 0 ? min(first_kept, k + lowest_bit(kept)) : first_kept;
     last_kept = kept != 0 ? k + highest_bit(kept) : last_kept;
-    reaches = max(reaches, select(vload8(0, polygon->reaches + k), (float8)0, lanes_of(gone)));
+    reaches = max(reaches, select(vload8(0, cell->reaches + k), (float8)0, lanes_of(gone)));
   }
-  if (is_cut == 0 && on > 1) take_edge(polygon, line);
+  if (is_cut == 0 && on > 1) take_edge(cell, line);
   if (is_cut == 0) return;
   if (last_kept < 0) {
-    polygon->size = 0;
-    polygon->reach = 0;
+    cell->size = 0;
+    cell->reach = 0;
     return;
   }
   // From the first to the last vertex that goes. Those on the line go with them, and new ones take their
@@ -249,24 +216,24 @@ static inline void cut(cell_t* polygon, line_t line) {
   const int after = last + 1 < size ? last + 1 : 0;
   const int kept = last_kept - first_kept + 1;
   const int new_size = (is_split ? kept : size - (last - first + 1)) + 2;
-  if (new_size > polygon->room) {
-    polygon->is_full = true;
-    polygon->reach = 0;
+  if (new_size > ROOM) {
+    cell->is_full = true;
+    cell->reach = 0;
     return;
   }
-  const line_t before_line = line_of(polygon, first), after_line = line_of(polygon, after);
+  const line_t before_line = line_of(cell, first), after_line = line_of(cell, after);
   const double4 ends = crossings(before_line, line, after_line);
   const int at = is_split ? kept : first;
   if (is_split) {
-    move_edges(polygon, first_kept, 0, kept);
-    set_line(polygon, at, before_line);
+    move_edges(cell, first_kept, 0, kept);
+    set_line(cell, at, before_line);
   } else if (last + 1 != first + 2) {
-    move_edges(polygon, last + 1, first + 2, size - (last + 1));
+    move_edges(cell, last + 1, first + 2, size - (last + 1));
   }
-  end_edges(polygon, new_size);
-  set_line(polygon, at + 1, line);
-  const float begin_reach = set_vertex(polygon, at, ends.lo), end_reach = set_vertex(polygon, at + 1, ends.hi);
-  polygon->reach = max(greatest_of(reaches), max(begin_reach, end_reach));
+  end_edges(cell, new_size);
+  set_line(cell, at + 1, line);
+  const float begin_reach = set_vertex(cell, at, ends.lo), end_reach = set_vertex(cell, at + 1, ends.hi);
+  cell->reach = max(greatest_of(reaches), max(begin_reach, end_reach));
 }
 
 static inline long square_of(int2 vector) { return (long)vector.s0 * vector.s0 + (long)vector.s1 * vector.s1; }

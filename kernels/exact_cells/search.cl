@@ -40,22 +40,22 @@ static inline line_t first_line(long4 sides, int k) {
   return line;
 }
 
-static inline void begin_polygon(cell_t* polygon, const tree_t* tree, int2 at, uint site) {
+static inline void begin_cell(cell_t* cell, const tree_t* tree, int2 at, uint site) {
   const long4 sides = first_sides(tree, convert_long2(at));
   const double4 ends = convert_double4(sides);
-  polygon->lag = lag_of(tree->lags, site);
-  polygon->is_full = false;
-  end_edges(polygon, 4);
-  for (int k = 0; k < 4; ++k) set_line(polygon, k, first_line(sides, k));
-  const float4 reaches = {set_vertex(polygon, 0, ends.s10), set_vertex(polygon, 1, ends.s12),
-                          set_vertex(polygon, 2, ends.s32), set_vertex(polygon, 3, ends.s30)};
-  polygon->reach = max(max(reaches.s0, reaches.s1), max(reaches.s2, reaches.s3));
+  cell->lag = lag_of(tree->lags, site);
+  cell->is_full = false;
+  end_edges(cell, 4);
+  for (int k = 0; k < 4; ++k) set_line(cell, k, first_line(sides, k));
+  const float4 reaches = {set_vertex(cell, 0, ends.s10), set_vertex(cell, 1, ends.s12),
+                          set_vertex(cell, 2, ends.s32), set_vertex(cell, 3, ends.s30)};
+  cell->reach = max(max(reaches.s0, reaches.s1), max(reaches.s2, reaches.s3));
 }
 
 // --- boxes and sites, eight at a time ---
 
 // Behind which nothing can cut.
-static inline uint end_of(const cell_t* polygon) { return as_uint(4 * polygon->reach); }
+static inline uint end_of(const cell_t* cell) { return as_uint(4 * cell->reach); }
 
 // The squared distances of bisectors with sites or boxes at these squared distances.
 static inline float8 bisectors_of(const tree_t* tree, float8 distances, float8 leads) {
@@ -64,23 +64,23 @@ static inline float8 bisectors_of(const tree_t* tree, float8 distances, float8 l
 
 // Cuts the cell by the sites of a leaf, the nearest first. `from` is the cell's site as the image of the tree
 // sees it.
-static inline void cut_by_leaf(cell_t* polygon, const tree_t* tree, uint leaf, int2 from, int image) {
+static inline void cut_by_leaf(cell_t* cell, const tree_t* tree, uint leaf, int2 from, int image) {
   const float8 x = convert_float8(vload8(2 * (size_t)leaf, tree->sites) - from.s0);
   const float8 y = convert_float8(vload8(2 * (size_t)leaf + 1, tree->sites) - from.s1);
-  const float8 distances = x * x + y * y, leads = leads_of(tree->lags, leaf, polygon->lag);
+  const float8 distances = x * x + y * y, leads = leads_of(tree->lags, leaf, cell->lag);
   const float8 more = with_margin(leads);
   int8 may_cut = 0;
-  for (int k = 0; k < polygon->size; ++k) {
-    const float8 dx = x - polygon->rough_x[k], dy = y - polygon->rough_y[k];
-    may_cut |= dx * dx + dy * dy < polygon->reaches[k] + more;
+  for (int k = 0; k < cell->size; ++k) {
+    const float8 dx = x - cell->rough_x[k], dy = y - cell->rough_y[k];
+    may_cut |= dx * dx + dy * dy < cell->reaches[k] + more;
   }
   const uint first = leaf * FAN;
   may_cut &= first_of(tree->count - first) & (distances > 0);
   uint8 order = order_of(bisectors_of(tree, distances, leads), may_cut);
-  for (uint next = least_of(order); next < end_of(polygon); next = least_of(order)) {
+  for (uint next = least_of(order); next < end_of(cell); next = least_of(order)) {
     const uint site = first + (next & (FAN - 1));
     order = without(order, next);
-    cut(polygon, line_towards(tree, polygon->lag, site_at(tree, site) - from, site, image));
+    cut(cell, line_towards(tree, cell->lag, site_at(tree, site) - from, site, image));
   }
 }
 
@@ -96,42 +96,42 @@ static inline boxes_t boxes_of_group(const tree_t* tree, int level, uint group) 
 }
 
 // Which of eight boxes, of those that count, may hold sites that cut.
-static inline uint8 order_of_boxes(const cell_t* polygon, const tree_t* tree, boxes_t boxes, float8 leads,
+static inline uint8 order_of_boxes(const cell_t* cell, const tree_t* tree, boxes_t boxes, float8 leads,
                                    int8 that_count, int2 from) {
   const float8 left = convert_float8(boxes.left - from.s0), right = convert_float8(boxes.right - from.s0),
                lower = convert_float8(boxes.lower - from.s1), upper = convert_float8(boxes.upper - from.s1);
   const float8 away_x = max(max(left, -right), 0.0f), away_y = max(max(lower, -upper), 0.0f);
   const float8 distances = bisectors_of(tree, away_x * away_x + away_y * away_y, leads), more = with_margin(leads);
-  const int8 is_near = (distances < 4 * polygon->reach) & that_count;
+  const int8 is_near = (distances < 4 * cell->reach) & that_count;
   if (bits_of_ints(is_near) == 0) return FAR;
   int8 may_cut = 0;
-  for (int k = 0; k < polygon->size; ++k) {
-    const float x = polygon->rough_x[k], y = polygon->rough_y[k];
+  for (int k = 0; k < cell->size; ++k) {
+    const float x = cell->rough_x[k], y = cell->rough_y[k];
     const float8 dx = max(max(left - x, x - right), 0.0f), dy = max(max(lower - y, y - upper), 0.0f);
-    may_cut |= dx * dx + dy * dy < polygon->reaches[k] + more;
+    may_cut |= dx * dx + dy * dy < cell->reaches[k] + more;
   }
   return order_of(distances, may_cut & is_near);
 }
 
 // The boxes of a group without `own`.
-static inline uint8 order_of_group(const cell_t* polygon, const tree_t* tree, int level, uint group, uint own,
+static inline uint8 order_of_group(const cell_t* cell, const tree_t* tree, int level, uint group, uint own,
                                    int2 from) {
   const int8 is_other = (int8)(0, 1, 2, 3, 4, 5, 6, 7) != (int)(own - group * FAN);
   const int8 that_count = are_there(tree->count, level, group) & is_other;
-  const float8 leads = leads_of(tree->box_lags, tree->levels[level] + group, polygon->lag);
-  return order_of_boxes(polygon, tree, boxes_of_group(tree, level, group), leads, that_count, from);
+  const float8 leads = leads_of(tree->box_lags, tree->levels[level] + group, cell->lag);
+  return order_of_boxes(cell, tree, boxes_of_group(tree, level, group), leads, that_count, from);
 }
 
 // Cuts a cell by the sites in a group's boxes, the nearest box first, but not by those in the box `own`.
-static inline void cut_by_group(cell_t* polygon, const tree_t* tree, int top, uint group, uint own, int2 from,
+static inline void cut_by_group(cell_t* cell, const tree_t* tree, int top, uint group, uint own, int2 from,
                                 int image) {
   walk_t walk;
-  begin_walk(&walk, top, group, order_of_group(polygon, tree, top, group, own, from));
-  while (goes_on(&walk, top, end_of(polygon))) {
+  begin_walk(&walk, top, group, order_of_group(cell, tree, top, group, own, from));
+  while (goes_on(&walk, top, end_of(cell))) {
     if (walk.level == 1) {
-      cut_by_leaf(polygon, tree, walk.node, from, image);
+      cut_by_leaf(cell, tree, walk.node, from, image);
     } else {
-      enter(&walk, order_of_group(polygon, tree, walk.level - 1, walk.node, FAR, from));
+      enter(&walk, order_of_group(cell, tree, walk.level - 1, walk.node, FAR, from));
     }
   }
 }
@@ -203,13 +203,13 @@ static inline void find_near(near_t* near, const tree_t* tree, uint own) {
 }
 
 // Cuts a cell by the sites of these leaves, the nearest leaf first.
-static inline void cut_by_near(cell_t* polygon, const tree_t* tree, const near_t* near, int2 at) {
+static inline void cut_by_near(cell_t* cell, const tree_t* tree, const near_t* near, int2 at) {
   uint8 orders[MOST_NEAR / FAN];
   for (uint first = 0; first < near->count; first += FAN) {
     const boxes_t boxes = {vload8(0, near->left + first), vload8(0, near->right + first),
                            vload8(0, near->lower + first), vload8(0, near->upper + first)};
-    const float8 leads = convert_float8(polygon->lag - vload8(0, near->lags + first));
-    orders[first / FAN] = order_of_boxes(polygon, tree, boxes, leads, first_of(near->count - first), at);
+    const float8 leads = convert_float8(cell->lag - vload8(0, near->lags + first));
+    orders[first / FAN] = order_of_boxes(cell, tree, boxes, leads, first_of(near->count - first), at);
   }
   while (true) {
     uint next = FAR, first = 0;
@@ -218,23 +218,23 @@ static inline void cut_by_near(cell_t* polygon, const tree_t* tree, const near_t
       first = least < next ? k : first;
       next = min(next, least);
     }
-    if (next >= end_of(polygon)) return;
+    if (next >= end_of(cell)) return;
     orders[first / FAN] = without(orders[first / FAN], next);
-    cut_by_leaf(polygon, tree, near->leaves[first + (next & (FAN - 1))], at, 0);
+    cut_by_leaf(cell, tree, near->leaves[first + (next & (FAN - 1))], at, 0);
   }
 }
 
 // Cuts a cell by all sites, and their images across the ends of periods: first by those of its own leaf and
 // of the leaves near it, then, if it reaches farther, by those that are next to its own in the tree.
-static inline void cut_by_all(cell_t* polygon, const tree_t* tree, const near_t* near, uint site, int2 at) {
-  cut_by_leaf(polygon, tree, site >> FAN_BITS, at, 0);
-  cut_by_near(polygon, tree, near, at);
-  for (int level = 1; level <= tree->top && 4 * polygon->reach > near->distance; ++level) {
+static inline void cut_by_all(cell_t* cell, const tree_t* tree, const near_t* near, uint site, int2 at) {
+  cut_by_leaf(cell, tree, site >> FAN_BITS, at, 0);
+  cut_by_near(cell, tree, near, at);
+  for (int level = 1; level <= tree->top && 4 * cell->reach > near->distance; ++level) {
     const uint own = site >> (FAN_BITS * level);
-    cut_by_group(polygon, tree, level, own >> FAN_BITS, own, at, 0);
+    cut_by_group(cell, tree, level, own >> FAN_BITS, own, at, 0);
   }
   for (int image = 1; image < tree->images; ++image)
-    cut_by_group(polygon, tree, tree->top, 0, FAR, seen_from(tree, at, image), image);
+    cut_by_group(cell, tree, tree->top, 0, FAR, seen_from(tree, at, image), image);
 }
 
 #endif

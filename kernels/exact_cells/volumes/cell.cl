@@ -7,24 +7,16 @@
 #define NUMBER_4 double4
 #define CELL_VECTOR double8
 #define CELL_BYTES POLYHEDRON_BYTES
-#define PRIVATE_CELL(cell) cell_t cell;
+#define PRIVATE_ROOM 64  // for vertices; in global memory a multiple
 
 #include "exact_cells/lanes.cl"
 #include "exact_cells/wide.cl"
 
-// Where polyhedra lie: private for the many, global for those with more vertices than that has room for.
-// Functions that say ROOM have a `cell`.
 #ifdef LARGE_CELLS
-#define CELL_SPACE global
-#define DECLARED_LIST(type, name, length) global type* name;
-#define ROOM cell->room  // for vertices, a multiple of 64
-#define MOST_PLANES cell->room
+#define MOST_PLANES ROOM
 typedef int index_t;
 typedef int4 indices_t;
 #else
-#define CELL_SPACE private
-#define DECLARED_LIST(type, name, length) type name[length];
-#define ROOM 64
 #define MOST_PLANES 250  // that ever cut a cell: those without a vertex are forgotten when it is full
 typedef uchar index_t;
 typedef uchar4 indices_t;
@@ -71,16 +63,6 @@ typedef struct {
   double slack;               // by how much, twice, lags differ from that of a site behind a plane
   bool is_full, is_broken, is_doubtful;
 } __attribute__((aligned(64))) cell_t;
-
-#ifdef LARGE_CELLS
-static inline void place_cell(cell_t* cell, global uchar* memory, int room) {
-  cell->room = room;
-#define PLACED_LIST(type, name, length) \
-  cell->name = (global type*)memory;    \
-  memory += (size_t)(length) * sizeof(type);
-  CELL_LISTS(PLACED_LIST)
-}
-#endif
 
 static inline int lowest_of(ulong word) { return (int)popcount(~word & (word - 1)); }
 static inline ulong or_of(ulong8 a) {

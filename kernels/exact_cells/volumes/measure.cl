@@ -5,9 +5,10 @@
 
 #define FOUND_EDGE uint4
 
+#include "exact_cells/volumes/search.cl"
+
 #include "exact_cells/each_cell.cl"
 #include "exact_cells/found.cl"
-#include "exact_cells/volumes/search.cl"
 
 // Lists the edges of a cell, each once: two vertices, and the planes on both sides. Returns how many. And
 // says that planes with vertices have corners.
