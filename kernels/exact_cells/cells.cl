@@ -5,8 +5,8 @@
 static inline line_t found_line(const tree_t* tree, uint2 edge, int2 at, uint site) {
   const int image = as_int(edge.s1);
   if (edge.s0 == NO_CELL) return first_line(first_sides(tree, convert_long2(at)), image);
-  return line_towards(tree, lag_of(tree->lags, site), site_at(tree, edge.s0) - seen_from(tree, at, image), edge.s0,
-                      image);
+  const int2 way = site_at(tree, edge.s0) - (at - shift_of(tree, image));
+  return line_towards(tree->lags, lag_of(tree->lags, site), way, edge.s0, image);
 }
 
 // Puts the edges of each cell where they belong, by the caller's ids: the cells behind them, and where they

@@ -6,16 +6,24 @@
 
 #include "exact_cells/sizes.cl"
 
-#ifndef NUMBER
+#if DIMENSIONS == 3
+#define NUMBER double
+#define NUMBER_4 double4
+typedef double3 place_t;
+typedef float3 rough_t;
+#else
 #define NUMBER int
 #define NUMBER_4 int4
+typedef int2 place_t;
+typedef float2 rough_t;
 #endif
 
 #define FAN_BITS 3
 #define MOST_LEVELS 10       // of boxes, for 2^30 sites
 #define NO_CELL 0xffffffffu  // behind a side of the box
 
-// Where cells lie: private for the many, global for those that have no room there. Functions that say ROOM have a `cell`.
+// Where cells lie: private for the many, global for those that have no room there. Functions that say ROOM have a
+// `cell`.
 #ifdef LARGE_CELLS
 #define CELL_SPACE global
 #define DECLARED_LIST(type, name, length) global type* name;

@@ -25,8 +25,7 @@ static inline int first_edge(const cell_t* cell) {
 static inline void measure_cell(cell_t* cell, const tree_t* tree, const near_t* near, MEASURE_PARAMETERS,
                                 uint site) {
   const int2 at = site_at(tree, site);
-  begin_cell(cell, tree, at, site);
-  cut_by_all(cell, tree, near, site, at);
+  cut_by_all(cell, tree, near, site);
   if (cell->is_full) {
     queue[atomic_inc(counters + 1)] = site;
     return;

@@ -17,8 +17,10 @@
 // In a tilted box a cell begins as a square with half of the box's diagonal each way, which is at most 2^28.5 steps:
 // its vertices are at most 2^29 away, and so R is at most 2^30.
 
-#ifndef VOROCL_EXACT_CELLS_POLYGON
+#if !defined(VOROCL_EXACT_CELLS_POLYGON) && DIMENSIONS != 3  // whose cells are volumes/polyhedron.cl's
 #define VOROCL_EXACT_CELLS_POLYGON
+
+#define DIMENSIONS 2
 
 #include "exact_cells/lanes.cl"
 #include "exact_cells/wide.cl"
@@ -28,6 +30,13 @@
 #define PRIVATE_ROOM 24  // for edges: cells of random points have 6 in the mean, and one in 10^10 as many as 20
 #define LANES 8          // vertices that a line is tried against at once
 
+#define MOST_NEAR 24  // of uniform points there are some 16
+
+// The boxes of near leaves, as seen from the leaf's first site, and the least lag in each.
+#define NEAR_LISTS                                                           \
+  int left[MOST_NEAR], right[MOST_NEAR], lower[MOST_NEAR], upper[MOST_NEAR]; \
+  double lags[MOST_NEAR];
+
 // A line a x + b y = c, with the site behind it. `image` says which of its images, or which side of the box this is.
 typedef struct {
   long c;
@@ -36,9 +45,9 @@ typedef struct {
   int image;
 } line_t;
 
-// A ring of edges, counter-clockwise where y points up, as lists, POLYGON_BYTES of sizes.cl in all. Vertex k is where edge
-// k ends, and edge k + 1 begins. Behind the last one come vertices that are the site itself, which do not count.
-// Vertices in half steps; lines; vertices in steps, and their squared distances, with a margin.
+// A ring of edges, counter-clockwise where y points up, as lists, POLYGON_BYTES of sizes.cl in all: vertices in half
+// steps; lines; vertices in steps, and their squared distances, with a margin. Vertex k is where edge k ends, and edge
+// k + 1 begins. Behind the last one come vertices that are the site itself, which do not count.
 #define CELL_LISTS(LIST)              \
   LIST(double, x, ROOM + LANES)       \
   LIST(double, y, ROOM + LANES)       \
@@ -54,6 +63,7 @@ typedef struct {
 typedef struct {
   CELL_LISTS(DECLARED_LIST)
   int room, size;  // in edges
+  global const double* lags;  // of sites; null without weights
   double lag;      // of the site
   float reach;     // the largest; 0 if nothing is left to be cut
   bool is_full;
@@ -186,8 +196,18 @@ static inline void take_edge(cell_t* cell, line_t line) {
   }
 }
 
-// Cuts off what lies beyond a line.
-static inline void cut(cell_t* cell, line_t line) {
+static inline long square_of(int2 vector) { return (long)vector.s0 * vector.s0 + (long)vector.s1 * vector.s1; }
+
+// The bisector of a site with this lag and another one that is so far away.
+static inline line_t line_towards(global const double* lags, double lag, int2 way, uint site, int image) {
+  const long more = (long)lag_of(lags, site) - (long)lag;
+  const line_t line = {square_of(way) + more, way.s0, way.s1, site, image};
+  return line;
+}
+
+// Cuts off what lies beyond the bisector of a site that is so far away. Returns whether that is anything.
+static inline bool cut(cell_t* cell, int2 way, uint site, int image) {
+  const line_t line = line_towards(cell->lags, cell->lag, way, site, image);
   const int size = cell->size;
   float8 reaches = 0;  // of the vertices that are kept
   int is_cut = 0, on = 0, first_gone = size, last_gone = -1, first_kept = size, last_kept = -1;
@@ -203,11 +223,11 @@ static inline void cut(cell_t* cell, line_t line) {
     reaches = max(reaches, select(vload8(0, cell->reaches + k), (float8)0, lanes_of(gone)));
   }
   if (is_cut == 0 && on > 1) take_edge(cell, line);
-  if (is_cut == 0) return;
+  if (is_cut == 0) return false;
   if (last_kept < 0) {
     cell->size = 0;
     cell->reach = 0;
-    return;
+    return true;
   }
   // From the first to the last vertex that goes. Those on the line go with them, and new ones take their
   // places: one more edge, less the edges between two vertices that go.
@@ -219,7 +239,7 @@ static inline void cut(cell_t* cell, line_t line) {
   if (new_size > ROOM) {
     cell->is_full = true;
     cell->reach = 0;
-    return;
+    return true;
   }
   const line_t before_line = line_of(cell, first), after_line = line_of(cell, after);
   const double4 ends = crossings(before_line, line, after_line);
@@ -234,8 +254,43 @@ static inline void cut(cell_t* cell, line_t line) {
   set_line(cell, at + 1, line);
   const float begin_reach = set_vertex(cell, at, ends.lo), end_reach = set_vertex(cell, at + 1, ends.hi);
   cell->reach = max(greatest_of(reaches), max(begin_reach, end_reach));
+  return true;
 }
 
-static inline long square_of(int2 vector) { return (long)vector.s0 * vector.s0 + (long)vector.s1 * vector.s1; }
+// What a cell begins with: how far its lower, right, upper and left sides are.
+static inline long4 first_sides(const tree_t* tree, long2 at) {
+  const long x[2] = {FIRST_SIDES(tree, at, x)}, y[2] = {FIRST_SIDES(tree, at, y)};
+  return (long4)(y[0], x[1], y[1], x[0]);
+}
+
+static inline line_t first_line(long4 sides, int k) {
+  const long side = k == 0 ? sides.s0 : k == 1 ? sides.s1 : k == 2 ? sides.s2 : sides.s3;
+  const int is_level = (k & 1) == 0, way = k == 0 || k == 3 ? -1 : 1;
+  const line_t line = {way * side, is_level ? 0 : way, is_level ? way : 0, NO_CELL, k};
+  return line;
+}
+
+static inline void begin_cell(cell_t* cell, const tree_t* tree, int2 at, uint site) {
+  const long4 sides = first_sides(tree, convert_long2(at));
+  const double4 ends = convert_double4(sides);
+  cell->lags = tree->lags;
+  cell->lag = lag_of(tree->lags, site);
+  cell->is_full = false;
+  end_edges(cell, 4);
+  for (int k = 0; k < 4; ++k) set_line(cell, k, first_line(sides, k));
+  const float4 reaches = {set_vertex(cell, 0, ends.s10), set_vertex(cell, 1, ends.s12),
+                          set_vertex(cell, 2, ends.s32), set_vertex(cell, 3, ends.s30)};
+  cell->reach = max(max(reaches.s0, reaches.s1), max(reaches.s2, reaches.s3));
+}
+
+// Behind which squared distance, in steps, no site cuts the cell.
+static inline float end_of(const cell_t* cell) { return 4 * cell->reach; }
+
+// Vertices as the search takes them.
+static inline int vertices_of(const cell_t* cell) { return cell->size; }
+static inline float2 vertex_of(const cell_t* cell, int k, float* reach) {
+  *reach = cell->reaches[k];
+  return (float2)(cell->rough_x[k], cell->rough_y[k]);
+}
 
 #endif

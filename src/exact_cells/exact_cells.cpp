@@ -124,7 +124,7 @@ struct ExactCellsState {
     upload.start(*device, buffer, std::move(values));
   }
 
-  /// Launches a kernel that takes the sites (SITE_PARAMETERS of search.cl) first.
+  /// Launches a kernel that takes the sites (SITE_PARAMETERS of lanes.cl) first.
   template <typename... More>
   cl::Event over_sites(const char* file, const char* name, std::size_t items, const More&... more) {
     return std::visit(

@@ -3,8 +3,7 @@
 #ifndef VOROCL_EXACT_CELLS_CELL
 #define VOROCL_EXACT_CELLS_CELL
 
-#define NUMBER double
-#define NUMBER_4 double4
+#define DIMENSIONS 3
 #define CELL_VECTOR double8
 #define CELL_BYTES POLYHEDRON_BYTES
 #define PRIVATE_ROOM 64  // for vertices; in global memory a multiple
@@ -23,6 +22,13 @@ typedef uchar4 indices_t;
 #endif
 #define WORDS (ROOM / 64)
 #define ONE_WORD (sizeof(index_t) == 1)  // as the compiler knows
+
+#define MOST_NEAR 112  // of uniform points there are some 76
+
+// The sites of near leaves, as seen from the leaf's first one.
+#define NEAR_LISTS                                                     \
+  float x[MOST_NEAR * FAN], y[MOST_NEAR * FAN], z[MOST_NEAR * FAN];    \
+  double exact_x[MOST_NEAR * FAN], exact_y[MOST_NEAR * FAN], exact_z[MOST_NEAR * FAN];
 
 // The lists of a cell, POLYHEDRON_BYTES of sizes.cl in all: planes (n and c), with the site behind each and its
 // image; the planes p0, p1, p2 of each vertex, and the vertices at the other ends of the edges between p0 and

@@ -5,7 +5,8 @@
 
 #define FOUND_EDGE uint4
 
-#include "exact_cells/volumes/search.cl"
+#include "exact_cells/volumes/near.cl"
+#include "exact_cells/search.cl"
 
 #include "exact_cells/each_cell.cl"
 #include "exact_cells/found.cl"

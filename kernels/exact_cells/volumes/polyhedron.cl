@@ -44,6 +44,14 @@ static inline float end_of(const cell_t* cell) {
   return convert_float(greatest_of(most)) * 1.0001f;
 }
 
+// Vertices as the search takes them, in steps, and their squared distances, with a margin.
+static inline int vertices_of(const cell_t* cell) { return cell->top; }
+static inline float3 vertex_of(const cell_t* cell, int k, float* reach) {
+  const float3 v = 0.5f * convert_float3((double3)(cell->x[k], cell->y[k], cell->z[k]));
+  *reach = (v.x * v.x + v.y * v.y + v.z * v.z) * 1.00001f;
+  return v;
+}
+
 static inline void transpose(const cell_t* cell, CELL_SPACE const index_t* p, double8* x, double8* y, double8* z,
                              double8* c) {
   CELL_SPACE const double4* const planes = cell->planes;
@@ -262,7 +270,8 @@ static inline bool cut(cell_t* cell, double3 n, uint site, int image) {
 
 // Begins a cell as a box around its site: plane 2 k and the next one are its ends along axis k, whose `sides` are so
 // far away, in half steps. They are as long as those of sites, so that `slack` does no more to them.
-static inline void begin_box(cell_t* cell, global const double* lags, uint site, const double* sides) {
+static inline void begin_cell(cell_t* cell, const tree_t* tree, double3 at, uint site) {
+  const double sides[6] = {FIRST_SIDES(tree, at, x), FIRST_SIDES(tree, at, y), FIRST_SIDES(tree, at, z)};
   for (int k = 0; k < ROOM; k += 8) {
     vstore8((double8)0, 0, cell->x + k);
     vstore8((double8)0, 0, cell->y + k);
@@ -273,8 +282,8 @@ static inline void begin_box(cell_t* cell, global const double* lags, uint site,
   cell->alive[0] = 0xff;
   cell->top = 8;
   cell->site = site;
-  cell->lags = lags;
-  cell->lag = lag_of(lags, site);
+  cell->lags = tree->lags;
+  cell->lag = lag_of(tree->lags, site);
   cell->slack = 0;
   cell->count = 6;
   cell->is_full = cell->is_broken = cell->is_doubtful = false;
