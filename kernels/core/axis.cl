@@ -68,8 +68,15 @@ static inline double_v periods_beyond(axis_t axis, double_v coordinate) {
   return nearest_whole((coordinate - axis.from - offset_in_period(axis, coordinate)) / (axis.to - axis.from));
 }
 
+// Oclgrind does not know what LLVM leaves of some functions that it has inlined.
+#ifdef VOROCL_SIMULATED
+#define ALWAYS_INLINE
+#else
+#define ALWAYS_INLINE __attribute__((always_inline))
+#endif
+
 // The spots of coordinates, those that are finite.
-__attribute__((always_inline)) static inline spots_t spots_on(axis_t axis, double_v coordinate) {
+ALWAYS_INLINE static inline spots_t spots_on(axis_t axis, double_v coordinate) {
   double_v position = coordinate, pixel;
   flags is_middle = 0;
   if (axis.kind & AXIS_PERIODIC) {
