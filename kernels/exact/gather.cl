@@ -41,8 +41,16 @@ static inline bool nearest_of_walk(const scene_t* scene, walk_t* walk, int4 cent
   return true;
 }
 
+// Whether the place near a box is farther than a side of what a work-item labels: by its lag, or as a heavy
+// seed.
+static inline bool is_far_by_weights(float4 place) {
+  const float side = (float)((IS_VOLUME ? SIDE_OF_VOLUME : SIDE_OF_PLANE) * ONE);
+  return IS_WEIGHTED && distance_of(place) > side * side;
+}
+
 // Finds a place near the centre of a box, from it; false if there is no place at all. Where the bins of the
-// box are empty, a few places of each range around it say which ranges the nearest one is in.
+// box are empty, a few places of each range around it say which ranges the nearest one is in. Places of the
+// box with long lags say so, too: a heavier one farther away may be nearer.
 #define FEW_OF_RANGE 8
 #define ALL_OF_RANGE (UINT_MAX / 2)
 NOINLINE static bool find_near(const scene_t* scene, box_t box, const cuboid_t* limits, float4* place) {
@@ -53,7 +61,7 @@ NOINLINE static bool find_near(const scene_t* scene, box_t box, const cuboid_t* 
     const span_t z = clamped(with_bins_around(span_of(box.z, box.z + box.sz - 1), rings, bits.z), limits->z);
     walk_t walk = walk_over(scene, x, y, z);
     if (nearest_of_walk(scene, &walk, centre, rings > 0 ? FEW_OF_RANGE : ALL_OF_RANGE, place)) {
-      if (rings > 0) {
+      if (rings > 0 || is_far_by_weights(*place)) {
         walk = walk_over_balls(scene, limits, ball_around(centre, *place));
         nearest_of_walk(scene, &walk, centre, ALL_OF_RANGE, place);
       }

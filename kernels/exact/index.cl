@@ -54,16 +54,16 @@ kernel void sort_chunks(global const given_t* restrict given, global const uint*
   }
 }
 
-// A work-group of one item has a bucket.
+// A work-group of one item has a bucket. `lags`: of rows, then of places.
 kernel void sort_buckets(global const int4* restrict sorted, int4 bits, int4 size, uint shift,
                          global const uint* restrict ends, global const int* restrict lags_of_seeds,
                          global uint* restrict starts, global int* restrict xs, global int* restrict ys,
                          global int* restrict zs, global uint* restrict ids, global int* restrict lags) {
   local uint seen[1 << TABLE_BITS];
   const bins_t bins = bins_of(bits, size);
-  const places_of_bins_t places = {xs, ys, zs, ids, lags};
   const uint bucket = (uint)get_global_id(0), rows = (uint)(bins.rows * bins.slices),
              each = (uint)bins.columns + 1;
+  const places_of_bins_t places = {xs, ys, zs, ids, IS_WEIGHTED ? lags + rows : lags};
   const uint first = bucket << shift, last = min((bucket + 1) << shift, rows);
   if (bucket >= BUCKETS || first >= rows) return;
   const uint begin = bucket == 0 ? 0 : ends[bucket - 1], end = ends[bucket];
@@ -86,6 +86,14 @@ kernel void sort_buckets(global const int4* restrict sorted, int4 bits, int4 siz
     const int4 place = sorted[i];
     put(&places, next[bin_of(&bins, place)]++, place, (uint)place.w, lags_of_seeds);
   }
+#if IS_WEIGHTED
+  for (uint row = first; row < last; ++row) {
+    int least = INT_MAX;
+    for (uint at = starts[row * each]; at < starts[(row + 1) * each - 1]; ++at)
+      least = min(least, places.lags[at]);
+    lags[row] = least;
+  }
+#endif
   if (most <= MANY_OF_BIN) return;
   for (uint row = first; row < last; ++row)
     drop_repeats_of_row(&places, starts + row * each, bins.columns, seen);

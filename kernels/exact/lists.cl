@@ -17,7 +17,7 @@
 #ifndef MOST_IN_LIST
 #define MOST_IN_LIST 4000
 #endif
-#define LIST_ROOM (MOST_IN_LIST + 24)
+#define LIST_ROOM (MOST_IN_LIST + 32)
 #define FEW_PLACES (IS_VOLUME ? 12 : 16)  // are not looked through
 #define MANY_PLACES 128                   // are a crowd
 #define NUMBERS 4096  // of places in a list, as the low bits of what says how near they are
@@ -46,7 +46,8 @@ typedef struct {
   global const uint* starts;
   global const int *x, *y, *z;
   global const uint* ids;
-  global const int* lags;  // by place; in the group shape by id
+  global const int* lags;      // by place; in the group shape by id
+  global const int* row_lags;  // the least of each row of bins; null in the group shape
   global const int2*
       order;            // by id, if places may be images of seeds in a plane: what orders these; else null
   int4 first, last;     // the pixels that get labels; others of the grid get none

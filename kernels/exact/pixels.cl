@@ -158,7 +158,7 @@ kernel void label_pixels(global const uint* restrict starts, global const int* r
                          int4 bits, int4 size, int4 first, int4 last, global uint* restrict out) {
   const int item = (int)get_global_id(0), column = item % size.x, row = item / size.x;
   if (row >= size.y) return;
-  const scene_t scene = {bins_of(bits, size),    size,  starts, xs, ys, 0, ids, lags,
+  const scene_t scene = {bins_of(bits, size),    size,  starts, xs, ys, 0, ids, lags, 0,
                          has_images ? order : 0, first, last,   out};
   out[item] = has_label(&scene, column, row, 0) ? label_of(&scene, column, row) : NO_LABEL;
 }

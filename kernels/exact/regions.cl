@@ -244,12 +244,21 @@ static inline bool label_if_dense(const scene_t* scene, box_t b, stamps_t* stamp
   return label_by_stamps(scene, b, side, stamps);
 }
 
+// Labels what a work-item has from one list where heavy seeds from far away win against those that lie there,
+// however many these are; false elsewhere, and if the list overflows.
+static inline bool label_if_heavy(const scene_t* scene, box_t own, lists_t* lists) {
+  const cuboid_t limits = limits_around(scene, own);
+  float4 place;
+  return find_near(scene, own, &limits, &place) && is_far_by_weights(place) &&
+         label_alone(scene, own, SIDE == REGION ? A_REGION : A_TILE, lists);
+}
+
 typedef union {
   lists_t lists;
   stamps_t stamps;
 } rooms_t;
 
-// `zs` is for volumes, `order` for planes, where places may be images of seeds.
+// `lags` are of rows, then of places; `zs` is for volumes, `order` for planes, where places may be images of seeds.
 kernel void label_regions(global const uint* restrict starts, global const int* restrict xs,
                           global const int* restrict ys, global const int* restrict zs,
                           global const uint* restrict ids, global const int* restrict lags,
@@ -258,12 +267,24 @@ kernel void label_regions(global const uint* restrict starts, global const int* 
   const int item = (int)get_global_id(0), columns = (size.x - 1) / SIDE + 1, rows = (size.y - 1) / SIDE + 1;
   const box_t own = box_at(item % columns * SIDE, item / columns % rows * SIDE, item / columns / rows * SIDE,
                            SIDE, SIDE, IS_VOLUME ? SIDE : 1);
-  const scene_t scene = {bins_of(bits, size),    size,  starts, xs,    ys, zs, ids, lags,
-                         has_images ? order : 0, first, last,   labels};
+  const bins_t bins = bins_of(bits, size);
+  const scene_t scene = {bins,
+                         size,
+                         starts,
+                         xs,
+                         ys,
+                         zs,
+                         ids,
+                         IS_WEIGHTED ? lags + bins.rows * bins.slices : lags,
+                         lags,
+                         has_images ? order : 0,
+                         first,
+                         last,
+                         labels};
   if (!is_in_grid(&scene, own)) return;
   const box_t region =
       box_at(own.x / REGION * REGION, own.y / REGION * REGION, own.z, REGION, REGION, REGION_Z);
-  rooms_t rooms;
+  rooms_t rooms __attribute__((aligned(64)));  // vectors of eight do not cross lines of the cache
   uint pixels;
   const uint count = places_around(&scene, region, &pixels);
   const bool has_few = (ulong)count * (REGION * REGION * REGION_Z) < (ulong)FEW_OF_REGION * pixels;
@@ -274,6 +295,7 @@ kernel void label_regions(global const uint* restrict starts, global const int* 
     }
     return;
   }
+  if (IS_WEIGHTED && label_if_heavy(&scene, own, &rooms.lists)) return;
   if (label_if_dense(&scene, own, &rooms.stamps)) return;
   for (int i = 0; i < children_of(own, TILE, TILE, TILE_Z); ++i) {
     const box_t tile = child_of(own, i, TILE, TILE, TILE_Z);

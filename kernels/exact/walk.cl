@@ -3,7 +3,8 @@
 // BALLS. What is nearest at a corner of a box lies in the ball around it through any known place. What is
 // nearest anywhere in the box lies in one of these balls: a ball around a pixel centre of the box, through
 // the same place, lies in their union. So each row of bins has its own stretch along x, or none. (By the
-// Manhattan metric balls are diamonds, and so it is with them.)
+// Manhattan metric balls are diamonds, and so it is with them.) Lags make balls smaller: those of the places
+// of a row are at least the row's.
 
 #ifndef VOROCL_EXACT_WALK
 #define VOROCL_EXACT_WALK
@@ -142,6 +143,10 @@ static inline bool row_in_balls(const scene_t* scene, walk_t* w) {
     rest -= dz * dz;
   }
   const float8 reach = radius_of(fmax(rest, 0.f));
+#if IS_WEIGHTED
+  if (scene->row_lags != 0)
+    rest -= (float)scene->row_lags[w->row_z * scene->bins.rows + w->row_y] * (LAG_UNIT * SQUARED_UNIT);
+#endif
   const int8 misses = rest < 0.f;
   const float west = least_float(select(w->balls.x - reach, (float8)INFINITY, misses)) * (1.f / SPACING_X);
   const float east = -least_float(select(-w->balls.x - reach, (float8)INFINITY, misses)) * (1.f / SPACING_X);

@@ -110,7 +110,7 @@ Report exact_diagram_by_places(Filling& filling, DiagramState& state) {
   if (grid.is_volume()) state.reserve(z, room * word);
   const bool by_pixels = device.tuning().shape == Shape::group;
   const std::shared_ptr<const Lags> weighted = filling.seeds().lags();
-  if (weighted && !by_pixels) state.reserve(lags, room * word);
+  if (weighted && !by_pixels) state.reserve(lags, (rows + room) * word);
   // Kernels do not look at what there is not.
   const cl::Buffer &of_lags = weighted ? lags : ids, &of_seeds = weighted ? weighted->there : ids,
                    &of_z = grid.is_volume() ? z : x;
