@@ -68,15 +68,8 @@ static inline double_v periods_beyond(axis_t axis, double_v coordinate) {
   return nearest_whole((coordinate - axis.from - offset_in_period(axis, coordinate)) / (axis.to - axis.from));
 }
 
-// Oclgrind does not know what LLVM leaves of some functions that it has inlined.
-#ifdef VOROCL_SIMULATED
-#define ALWAYS_INLINE
-#else
-#define ALWAYS_INLINE __attribute__((always_inline))
-#endif
-
-// The spots of coordinates, those that are finite.
-ALWAYS_INLINE static inline spots_t spots_on(axis_t axis, double_v coordinate) {
+// Finds the spots of coordinates, those that are finite.
+__attribute__((always_inline)) static inline void find_spots(axis_t axis, double_v coordinate, spots_t* spots) {
   double_v position = coordinate, pixel;
   flags is_middle = 0;
   if (axis.kind & AXIS_PERIODIC) {
@@ -101,8 +94,8 @@ ALWAYS_INLINE static inline spots_t spots_on(axis_t axis, double_v coordinate) {
     pixel = axis.count - 1 - pixel;
     position = axis.count - position;
   }
-  const spots_t spots = {pixel, clamp(NEAREST_FROM_0((position - pixel) * PARTS_OF_PIXEL), 0.0, PARTS_OF_PIXEL - 1.0)};
-  return spots;
+  spots->pixel = pixel;
+  spots->part = clamp(NEAREST_FROM_0((position - pixel) * PARTS_OF_PIXEL), 0.0, PARTS_OF_PIXEL - 1.0);
 }
 
 #endif

@@ -54,8 +54,8 @@ typedef struct {
 static inline places_t places_of(const grid_t* grid, points_t at, int has_z, int_v counts, int outside,
                                  int2 bits, uint empty) {
   const flags is_finite = isfinite(at.x) && isfinite(at.y) && isfinite(at.z);
-  spots_t z = {0, PARTS_OF_PIXEL / 2};
-  if (has_z) z = spots_on(grid->z, at.z);
+  spots_t x, y, z = {0, PARTS_OF_PIXEL / 2};
+  if (has_z) find_spots(grid->z, at.z, &z);
   if (grid->z.count == 1) z.part = PARTS_OF_PIXEL / 2;  // a plane
   const flags is_on_z = is_finite && is_on(grid->z, z.pixel);
   const int_v along_z = CONVERT_INT_V(IF(is_on_z, z.pixel, (double_v)0)) * PARTS_OF_PIXEL + CONVERT_INT_V(z.part);
@@ -65,7 +65,7 @@ static inline places_t places_of(const grid_t* grid, points_t at, int has_z, int
     at.y -= grid->tilts.s2 * periods;
   }
   if (grid->tilts.s0 != 0) at.x -= grid->tilts.s0 * periods_beyond(grid->y, at.y);
-  const spots_t x = spots_on(grid->x, at.x), y = spots_on(grid->y, at.y);
+  find_spots(grid->x, at.x, &x), find_spots(grid->y, at.y, &y);
   const flags is_on_all = is_on_z && is_on(grid->x, x.pixel) && is_on(grid->y, y.pixel);
   const int_v is_inside = counts && CONVERT_FLAGS(is_on_all), is_beyond = counts && !is_inside;
   const int_v column = CONVERT_INT_V(IF(is_on_all, x.pixel, (double_v)0));

@@ -66,7 +66,7 @@ simulator=/usr/lib/oclgrind/liboclgrind-rt-icd.so
 if [ -e $simulator ]; then
   ln -s $simulator "$work/driver/libnvidia-opencl.so.1"
   # It does not know what LLVM leaves where it has inlined functions (see kernels.sh).
-  export OCLGRIND_BUILD_OPTIONS="-cl-opt-disable -DVOROCL_SIMULATED"
+  export OCLGRIND_BUILD_OPTIONS=-cl-opt-disable
   LD_LIBRARY_PATH=$work/driver VOROCL_DEVICE=oclgrind report 0 simulated "$2" --piece still --densities 64
   shows '^# Measured on Oclgrind'
   shows '^\| 64 64 \| 64 \|.* \| right \|$'

@@ -28,14 +28,15 @@ class AxisOnDevice {
 #define VECTOR (double_v)(coordinate, axis.from, axis.to, -coordinate)
 #define FIRST .s0
 #endif
-kernel void find_spots(global const double* coordinates, uint count, double2 ends, int pixels, int kind,
+kernel void show_spots(global const double* coordinates, uint count, double2 ends, int pixels, int kind,
                        global double2* spots, global double* periods) {
   const uint id = (uint)get_global_id(0);
   if (id >= count) return;
   const axis_t axis = axis_of(ends, pixels, kind);
   const double coordinate = coordinates[id];
   const double_v coordinates_here = VECTOR;
-  const spots_t found = spots_on(axis, coordinates_here);
+  spots_t found;
+  find_spots(axis, coordinates_here, &found);
   spots[id] = (double2)(found.pixel FIRST, found.part FIRST);
   periods[id] = periods_beyond(axis, coordinates_here) FIRST;
 })")) {
@@ -49,7 +50,7 @@ kernel void find_spots(global const double* coordinates, uint count, double2 end
     const cl::Buffer given = allocate_with(device, coordinates, "coordinates"),
                      spots = allocate(device, count * sizeof(cl_double2), "spots"),
                      periods = allocate(device, count * sizeof(cl_double), "periods");
-    cl::Kernel kernel(program_, "find_spots");
+    cl::Kernel kernel(program_, "show_spots");
     check(kernel.setArg(0, given), "points");
     check(kernel.setArg(1, static_cast<cl_uint>(count)), "count");
     check(kernel.setArg(2, cl_double2{{axis.from(), axis.to()}}), "ends");

@@ -100,7 +100,7 @@ simulate() {
 
   log=$(mktemp)
   trap 'rm -f "$log"' EXIT
-  VOROCL_DEVICE=oclgrind oclgrind --build-options "-cl-opt-disable -DVOROCL_SIMULATED" --data-races --log "$log" "$@"
+  VOROCL_DEVICE=oclgrind oclgrind --build-options -cl-opt-disable --data-races --log "$log" "$@"
   if [ -s "$log" ]; then
     echo "Oclgrind found:"
     cat "$log"
