@@ -122,8 +122,9 @@ typedef struct {
   float least;        // of the squared distances of bisectors with sites that are not listed
 } __attribute__((aligned(64))) near_t;
 
-// How far all sites around one of the leaf's sites are listed: it may lie deep in the leaf's box.
+// How far all sites around one of the leaf's sites are listed: it may lie deep in the leaf's box. 0 where none are.
 static inline float covered_by(const near_t* near, place_t at) {
+  if (near->count == 0) return 0;
   const rough_t from = rough_of(at - near->base), inside = fmin(from - near->low, near->high - from);
 #if DIMENSIONS == 3
   const float deep = fmin(fmin(inside.x, inside.y), inside.z);

@@ -6,7 +6,7 @@
 #define FAN 8  // the sites of a leaf, and the boxes that one is around
 
 // Of a polygon with room for so many edges, a multiple of 8: polygon.cl.
-#define POLYGON_BYTES(room) (56 * ((room) + 8))
+#define POLYGON_BYTES(room) (52 * ((room) + 8))
 
 // Of a polyhedron in global memory, with room for so many vertices, a multiple of 64, and planes: CELL_LISTS
 // of cell.cl.

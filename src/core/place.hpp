@@ -86,9 +86,10 @@ struct Absence {
 /// How many int32 the kernels get of a place: x and y; with voxels x, y, z and one that is not used.
 cl_int numbers_of_place(const Grid& grid);
 
-/// Enqueues that points are placed in all of a grid, which must fit in a diagram. `positions` are as
-/// Placement has them. `places`, which may be null, are in 1/4096 pixel from the grid's first one on, by id
-/// and one more that is absent, each of numbers_of_place(). `found` is what PointCheck reads.
+/// Enqueues that points are placed in all of a grid, which must fit in a diagram; returns its event.
+/// `positions` are as Placement has them. `places`, which may be null, are in 1/4096 pixel from the grid's
+/// first one on, by id and one more that is absent, each of numbers_of_place(). `found` is what PointCheck
+/// reads.
 cl::Event place_on_grid(const Device& device, KernelSet& kernels, const Grid& grid, Outside outside,
                         const PointsThere& points, const Absence& absence, const cl::Buffer& positions,
                         const cl::Buffer& places, const cl::Buffer& found);

@@ -272,7 +272,8 @@ void make_tree(SitesOfKind& tree, std::vector<OnCurve>&& order,
                const std::vector<double>& lags) {
   using Number = typename SitesOfKind::Number;
   constexpr std::size_t dimensions = SitesOfKind::dimensions;
-  // Where sites and boxes are that are not there. Kernels that take whole numbers ask whether they are.
+  // Where sites and boxes are that are not there. Most kernels ask whether they are; those that list the
+  // sites near a leaf in a volume find them too far.
   constexpr Number far = std::is_integral_v<Number> ? 0 : 1e17;
   const auto lag_of = [&lags](cl_uint id) { return lags.empty() ? 0.0 : lags[id]; };
   sort(order, [&](const OnCurve& p, const OnCurve& q) {

@@ -149,7 +149,7 @@ class Upload {
   template <typename Read>
   void start_where_they_are(const Device& device, Values values, Read read) {
     keep(device, std::move(values));
-    copied_ = read();
+    copied_ = with_host_memory(device, read);
   }
 
  private:

@@ -441,6 +441,19 @@ BOOST_AUTO_TEST_CASE(seeds_outside_the_rectangle_have_what_of_it_is_nearest_to_t
   check_as_a_whole(cells_of(set, Axes::none), set.name);
 }
 
+/// More seeds than a list holds, and some so far outside that boxes of the tree are far longer than the
+/// rectangle.
+BOOST_AUTO_TEST_CASE(outliers_leave_a_crowd_its_cells) {
+  constexpr std::int64_t length = 1 << 20;
+  for (std::uint64_t key = 1; key <= 40; ++key) {
+    Set set = {"a crowd and outliers " + std::to_string(key), length, length,
+               random_positions(length, length, 400, key)};
+    for (const auto& [x, y] : random_positions(400 * length, 400 * length, 22, 100 + key))
+      set.positions.push_back({x - 200 * length, y - 200 * length});
+    check_as_a_whole(cells_of(set, Axes::none), set.name);
+  }
+}
+
 namespace {
 
 using Ids = std::pair<std::uint32_t, std::uint32_t>;

@@ -175,6 +175,8 @@ BOOST_AUTO_TEST_CASE(what_cannot_be_weighted_is_refused) {
   exact_diagram(seeds, diagram);
   DistanceErrorsResult errors;
   check_error([&] { distance_errors(diagram, diagram, errors); }, {"an error of distances"});
+  SimilarityResult shares;
+  check_error([&] { similarity(diagram, diagram, 1, shares); }, {"an error of distances"});
   const auto label = [&](const Grid& of, const SeedsOptions& options = {}) {
     Diagram other(device, of);
     exact_diagram(Seeds(device, of, weighted, options), other);
