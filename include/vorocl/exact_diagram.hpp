@@ -27,12 +27,10 @@ struct ExactOptions {
 /// Of seeds with Snap::none the points themselves are taken: the nearest is that of the least (distance from
 /// the pixel's centre, y, x, id), in whole numbers of 1/4096 pixel: 8 more bytes of device memory per seed.
 /// Throws Error too if a seed that may own a pixel is more than 262,144 pixels from the window's first one.
-/// What follows about windows costs a place in the list for each seed and image that may own a pixel.
 ///
 /// Any window of any grid: seeds outside it, and images across its periods, are taken into account, in 64-bit
 /// integers where they need be. Where the window is not one whole period of at most 32,000 pixels, or seeds
-/// lie outside it, they cost 0.5 bytes per pixel and a search near the window's rim, farther in where seeds
-/// are few. With Shape::group, as on a GPU, that holds of periods of more than 16,000 pixels.
+/// lie outside it, each seed and image that may own a pixel costs a place in the list.
 ///
 /// In a tilted grid (Grid::tilted()) all seeds are taken as points, snapped ones at the centres of their
 /// pixels, and the host places their images whenever they have moved. In a flat box it looks at more of them:

@@ -46,7 +46,7 @@ typedef struct {
   global const uint* starts;
   global const int *x, *y, *z;
   global const uint* ids;
-  global const int* lags;      // by place; in the group shape by id
+  global const int* lags;      // by place
   global const int* row_lags;  // the least of each row of bins; null in the group shape
   global const int2*
       order;            // by id, if places may be images of seeds in a plane: what orders these; else null

@@ -19,9 +19,16 @@
 #define SIDE_OF_PLANE 64
 #define SIDE_OF_VOLUME 32
 
+// In the group shape a work-group of 32, 64, 128 or 256 items labels a patch, a square of pixels, or a part
+// of one that has a crowd.
+#define PATCH_BITS 5
+#define PATCH (1 << PATCH_BITS)
+#define CROWD_SIDE 16
+#define MOST_OF_CROWD_ITEMS 64
+
 #define BUCKETS 256            // of rows of bins, into which places are sorted first
 #define PLACES_OF_BIN 4        // about
-#define MOST_ITEMS_OF_ROW 256  // of a group that gives a row of bins its part of the list (pixels.cl)
+#define MOST_ITEMS_OF_ROW 256  // of a group that gives a row of bins its part of the list (group/index.cl)
 #define BEHIND_PLACES 16       // values behind each list of the index, which is read in whole vectors
 
 #endif

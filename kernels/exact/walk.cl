@@ -42,36 +42,51 @@ static inline cuboid_t limits_around(const scene_t* scene, box_t b) {
   c.z = limits_of(b.z, b.z + b.sz - 1, scene->size.z, PERIODIC_Z);
   return c;
 }
+// No pixel is more than a period in front of the grid.
 static inline int image_at(int at, int size, int periodic) {
-  return periodic ? (at >= 0 ? at / size : -((size - 1 - at) / size)) : 0;
+  return periodic ? (int)((uint)(at + size) / (uint)size) - 1 : 0;
 }
 static inline span_t of_image(span_t s, int image, int size, int periodic) {
   return periodic ? span_of(max(s.from - image * size, 0), min(s.to - image * size, size - 1)) : s;
 }
 
-// Centres and radii, squared if Euclidean and the known place's lag added, in units of the spacing. Of a
-// plane's four balls there are two each.
+// A value for each corner of a box.
+#if IS_VOLUME
+typedef float8 corners_t;
+typedef int8 int_corners_t;
+#define EAST ((corners_t)(-1, 1, -1, 1, -1, 1, -1, 1))
+#define SOUTH ((corners_t)(-1, -1, 1, 1, -1, -1, 1, 1))
+#define BELOW ((corners_t)(-1, -1, -1, -1, 1, 1, 1, 1))
+static inline float least_of_corners(corners_t v) { return least_float(v); }
+#else
+typedef float4 corners_t;
+typedef int4 int_corners_t;
+#define EAST ((corners_t)(-1, 1, -1, 1))
+#define SOUTH ((corners_t)(-1, -1, 1, 1))
+#define BELOW ((corners_t)(0))
+static inline float least_of_corners(corners_t v) { return fmin(fmin(v.x, v.y), fmin(v.z, v.w)); }
+#endif
+
+// Centres and radii, squared if Euclidean and the known place's lag added, in units of the spacing.
 typedef struct {
-  float8 x, y, z, n;
+  corners_t x, y, z, n;
 } balls_t;
 
-static inline float8 with_margin(float8 n) { return n * (1 + 0x1p-16f) + 0x1p-4f; }
+static inline corners_t with_margin(corners_t n) { return n * (1 + 0x1p-16f) + 0x1p-4f; }
 #define SQUARED_UNIT (1.f / ((float)ONE * (float)ONE))
-static inline float8 radius_of(float8 n) { return IS_MANHATTAN ? n : sqrt(n); }
+static inline corners_t radius_of(corners_t n) { return IS_MANHATTAN ? n : sqrt(n); }
 
 static inline balls_t balls_around(box_t b, float4 place) {
   const float4 half_way = between_centres(b) / 2, centre = convert_float4(centre_of(b)) * (1.f / ONE);
-  const float8 sides_x = (float8)(-1, 1, -1, 1, -1, 1, -1, 1) * half_way.x;
-  const float8 sides_y = (float8)(-1, -1, 1, 1, -1, -1, 1, 1) * half_way.y;
-  const float8 sides_z = (float8)(-1, -1, -1, -1, 1, 1, 1, 1) * half_way.z;
-  const float8 x = sides_x - place.x * (1.f / ONE), y = sides_y - place.y * (1.f / ONE);
+  const corners_t sides_x = EAST * half_way.x, sides_y = SOUTH * half_way.y, sides_z = BELOW * half_way.z;
+  const corners_t x = sides_x - place.x * (1.f / ONE), y = sides_y - place.y * (1.f / ONE);
   balls_t balls;
   balls.x = sides_x + centre.x, balls.y = sides_y + centre.y, balls.z = sides_z + centre.z;
 #if IS_MANHATTAN
   balls.n = with_margin(fabs(x) + fabs(y));
 #else
-  const float8 z = sides_z - place.z * (1.f / ONE);
-  const float8 n = x * x + y * y + z * z;
+  const corners_t z = sides_z - place.z * (1.f / ONE);
+  const corners_t n = x * x + y * y + (IS_VOLUME ? z * z : 0);
   balls.n = with_margin(IS_WEIGHTED ? n + place.w * SQUARED_UNIT : n);
 #endif
   return balls;
@@ -81,7 +96,7 @@ static inline balls_t ball_around(int4 centre, float4 place) {
   const float4 middle = convert_float4(centre) * (1.f / ONE);
   balls_t ball;
   ball.x = middle.x, ball.y = middle.y, ball.z = middle.z;
-  ball.n = with_margin((float8)(distance_of(place) * (IS_MANHATTAN ? 1.f / ONE : SQUARED_UNIT)));
+  ball.n = with_margin((corners_t)(distance_of(place) * (IS_MANHATTAN ? 1.f / ONE : SQUARED_UNIT)));
   return ball;
 }
 
@@ -123,7 +138,9 @@ static inline walk_t walk_over(const scene_t* scene, span_t x, span_t y, span_t 
 }
 
 // How far outside a range centres are.
-static inline float8 outside(float8 at, float from, float to) { return fmax(fmax(from - at, at - to), 0.f); }
+static inline corners_t outside(corners_t at, float from, float to) {
+  return fmax(fmax(from - at, at - to), 0.f);
+}
 
 // The pixels along x of the present row that the balls meet; false if there are none.
 static inline bool row_in_balls(const scene_t* scene, walk_t* w) {
@@ -136,20 +153,23 @@ static inline bool row_in_balls(const scene_t* scene, walk_t* w) {
   const float north = !PERIODIC_Y && w->row_y == 0 ? -INFINITY : (float)(y * SPACING_Y);
   const float south =
       !PERIODIC_Y && w->row_y == scene->bins.rows - 1 ? INFINITY : (float)((y + (1 << bits.y)) * SPACING_Y);
-  const float8 dy = outside(w->balls.y, north, south);
-  float8 rest = w->balls.n - (IS_MANHATTAN ? dy : dy * dy);
+  const corners_t dy = outside(w->balls.y, north, south);
+  corners_t rest = w->balls.n - (IS_MANHATTAN ? dy : dy * dy);
   if (IS_VOLUME) {
-    const float8 dz = outside(w->balls.z, (float)(z * SPACING_Z), (float)((z + (1 << bits.z)) * SPACING_Z));
+    const corners_t dz =
+        outside(w->balls.z, (float)(z * SPACING_Z), (float)((z + (1 << bits.z)) * SPACING_Z));
     rest -= dz * dz;
   }
-  const float8 reach = radius_of(fmax(rest, 0.f));
 #if IS_WEIGHTED
   if (scene->row_lags != 0)
     rest -= (float)scene->row_lags[w->row_z * scene->bins.rows + w->row_y] * (LAG_UNIT * SQUARED_UNIT);
 #endif
-  const int8 misses = rest < 0.f;
-  const float west = least_float(select(w->balls.x - reach, (float8)INFINITY, misses)) * (1.f / SPACING_X);
-  const float east = -least_float(select(-w->balls.x - reach, (float8)INFINITY, misses)) * (1.f / SPACING_X);
+  const corners_t reach = radius_of(fmax(rest, 0.f));
+  const int_corners_t misses = rest < 0.f;
+  const float west =
+      least_of_corners(select(w->balls.x - reach, (corners_t)INFINITY, misses)) * (1.f / SPACING_X);
+  const float east =
+      -least_of_corners(select(-w->balls.x - reach, (corners_t)INFINITY, misses)) * (1.f / SPACING_X);
   if (west > east) return false;
   const float most = 1 << 20;
   w->row = span_of(max(w->x.from, (int)fmax(west - 1, -most)), min(w->x.to, (int)fmin(east + 1, most)));
@@ -196,14 +216,14 @@ static inline bool next_range(const scene_t* scene, walk_t* w, int4 centre, uint
 }
 
 // The pixels of an axis that balls meet, and one more at both ends.
-static inline span_t span_of_balls(float8 at, float8 reach, int spacing, span_t limits) {
+static inline span_t span_of_balls(corners_t at, corners_t reach, int spacing, span_t limits) {
   const float most = 1 << 20;
-  const float from = least_float(at - reach) / (float)spacing,
-              to = -least_float(-at - reach) / (float)spacing;
+  const float from = least_of_corners(at - reach) / (float)spacing,
+              to = -least_of_corners(-at - reach) / (float)spacing;
   return clamped(span_of((int)fmax(from - 1, -most), (int)fmin(to + 1, most)), limits);
 }
 static inline walk_t walk_over_balls(const scene_t* scene, const cuboid_t* limits, balls_t balls) {
-  const float8 reach = radius_of(balls.n);
+  const corners_t reach = radius_of(balls.n);
   walk_t walk = walk_over(scene, span_of_balls(balls.x, reach, SPACING_X, limits->x),
                           span_of_balls(balls.y, reach, SPACING_Y, limits->y),
                           IS_VOLUME ? span_of_balls(balls.z, reach, SPACING_Z, limits->z) : span_of(0, 0));

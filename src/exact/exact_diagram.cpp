@@ -1,7 +1,6 @@
 #include "vorocl/exact_diagram.hpp"
 
 #include "core/diagram_state.hpp"
-#include "exact/group_shape.hpp"
 #include "exact/places.hpp"
 #include "globe/globe.hpp"
 #include "masks/exact_diagram.hpp"
@@ -14,8 +13,7 @@ Report exact_diagram(const Seeds& seeds, Diagram& diagram, const ExactOptions& o
   if (options.metric == Metric::great_circle) return exact_diagram_on_globe(filling, state);
   if (state.grid.is_volume()) check_exact_volume(filling, state);
   if (labels_by_passes(filling, state)) return exact_diagram_by_passes(filling, state);
-  return labels_in_groups(filling, state) ? exact_diagram_in_groups(filling, state)
-                                          : exact_diagram_by_places(filling, state);
+  return exact_diagram_by_places(filling, state);
 }
 
 }  // namespace vorocl

@@ -17,8 +17,9 @@ static_assert(fractions_of_pixel == 1 << MOST_FRACTION_BITS);
 /// The engine's working memory.
 struct PlacesWorkspace {
   cl::Buffer counts, ends, sorted;        // while the index is made
-  cl::Buffer table, lowest;               // likewise, in the group shape
+  cl::Buffer table;                       // likewise, in the group shape
   cl::Buffer starts, x, y, z, ids, lags;  // the index (kernels/exact/bins.cl)
+  cl::Buffer pending, queue;              // patches without labels as yet, and those with crowds
 };
 
 /// What is labelled: places with their images, or seeds at the centres of the grid's pixels.
@@ -103,14 +104,14 @@ Report exact_diagram_by_places(Filling& filling, DiagramState& state) {
   const cl_int4 size = {{grid.width(), grid.height(), grid.depth(), 0}}, bits = bits_of_bins(grid, count);
   const std::size_t rows = along(grid.height(), bits.s[1]) * along(grid.depth(), bits.s[2]);
   const std::size_t entries = rows * (along(grid.width(), bits.s[0]) + 1), room = count + BEHIND_PLACES;
-  auto& [counts, ends, sorted, table, lowest, starts, x, y, z, ids, lags] =
+  auto& [counts, ends, sorted, table, starts, x, y, z, ids, lags, pending, queue] =
       state.workspace<PlacesWorkspace>();
   state.reserve(starts, (entries + 1) * word);
   for (cl::Buffer* const list : {&x, &y, &ids}) state.reserve(*list, room * word);
   if (grid.is_volume()) state.reserve(z, room * word);
-  const bool by_pixels = device.tuning().shape == Shape::group;
+  const bool in_groups = device.tuning().shape == Shape::group;
   const std::shared_ptr<const Lags> weighted = filling.seeds().lags();
-  if (weighted && !by_pixels) state.reserve(lags, (rows + room) * word);
+  if (weighted) state.reserve(lags, (in_groups ? room : rows + room) * word);
   // Kernels do not look at what there is not.
   const cl::Buffer &of_lags = weighted ? lags : ids, &of_seeds = weighted ? weighted->there : ids,
                    &of_z = grid.is_volume() ? z : x;
@@ -120,29 +121,45 @@ Report exact_diagram_by_places(Filling& filling, DiagramState& state) {
   options.weighted = weighted != nullptr;
   const auto kernel = [&, &of_grid = grid](const char* name, std::size_t items_of_group) -> Kernel& {
     return state.kernels
-        .get(device, by_pixels ? "exact/pixels.cl" : "exact/diagram.cl", name, of_grid, options)
+        .get(device, in_groups ? "exact/group/diagram.cl" : "exact/diagram.cl", name, of_grid, options)
         .in_groups_of(items_of_group);
   };
-  if (by_pixels) {
+  if (in_groups) {
     const std::size_t group = device.tuning().group_width * device.tuning().group_height;
     const std::size_t items_of_places = std::max<std::size_t>(count, 1);
-    const std::size_t items_of_row = std::min<std::size_t>(group, MOST_ITEMS_OF_ROW);
+    const std::size_t most_of_row = std::min<std::size_t>(group, MOST_ITEMS_OF_ROW);
+    std::size_t items_of_row = 1;
+    while (items_of_row < std::min(along(grid.width(), bits.s[0]), most_of_row)) items_of_row *= 2;
     cl_uint table_bits = 1;
     while (std::size_t{1} << table_bits < 2 * items_of_places) ++table_bits;
-    state.reserve(table, word << table_bits);
-    state.reserve(lowest, items_of_places * word);
+    const std::size_t of_table = (std::size_t{1} << table_bits) + items_of_places;
+    state.reserve(table, of_table * word);
+    const std::size_t patches = along(grid.width(), PATCH_BITS) * along(grid.height(), PATCH_BITS);
+    state.reserve(pending, patches * word);
+    state.reserve(queue, (1 + patches) * word);
     const cl::Event begin = fill(state.device, starts, cl_uint{0}, entries + 1);
-    fill(state.device, table, ~cl_uint{0}, std::size_t{1} << table_bits);
-    fill(state.device, lowest, ~cl_uint{0}, items_of_places);
+    fill(state.device, table, ~cl_uint{0}, of_table);
     kernel("find_repeats", group)
-        .over_items(items_of_places, given, given_ids, has_ids, of_seeds, count, table_bits, table, lowest);
-    kernel("count_places", group).over_items(items_of_places, given, lowest, count, bits, size, starts);
+        .over_items(items_of_places, given, given_ids, has_ids, of_seeds, count, table_bits, table);
+    kernel("count_places", group)
+        .over_items(items_of_places, given, table_bits, table, count, bits, size, starts);
     kernel("start_bins", items_of_row).over_items(rows * items_of_row, starts, bits, size);
     kernel("list_places", group)
-        .over_items(items_of_places, given, lowest, count, bits, size, starts, x, y, ids);
-    const cl::Event end = kernel("label_pixels", group)
-                              .over_items(grid.pixels(), starts, x, y, ids, of_seeds, order, has_ids, bits,
-                                          size, first, last, state.labels);
+        .over_items(items_of_places, given, table_bits, table, count, bits, size, of_seeds, starts, x, y, ids,
+                    of_lags);
+    const auto label = [&, &of_order = order, of_has_ids = has_ids, of_first = first, of_last = last](
+                           const char* name, std::size_t items_of_group, std::size_t groups,
+                           const auto&... more) {
+      return kernel(name, items_of_group)
+          .over_items(groups * items_of_group, starts, x, y, ids, of_lags, of_order, of_has_ids, bits, size,
+                      of_first, of_last, state.labels, more...);
+    };
+    const std::size_t items = device.tuning().patch_items;
+    constexpr std::size_t crowds_of_patch = (PATCH / CROWD_SIDE) * (PATCH / CROWD_SIDE);
+    label("stamp_patches", items, patches, pending, queue);
+    label("list_patches", items, patches, pending, queue);
+    const cl::Event end = label("label_crowds", std::min<std::size_t>(items, MOST_OF_CROWD_ITEMS),
+                                crowds_of_patch * patches, queue);
     return filling.commit(0, begin, end);
   }
   const std::size_t chunks = chunks_of(count);

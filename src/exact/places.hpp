@@ -9,8 +9,7 @@ namespace vorocl {
 /// Throws Error for the Manhattan metric, and on devices of the group shape.
 void check_exact_volume(const Filling& filling, const DiagramState& state);
 
-/// Labels the diagram by lists of places (kernels/exact). That of a volume was checked; in planes on devices
-/// of the group shape seeds must be points.
+/// Labels the diagram by lists of places (kernels/exact). That of a volume was checked.
 Report exact_diagram_by_places(Filling& filling, DiagramState& state);
 
 }  // namespace vorocl

@@ -16,7 +16,7 @@ int vector_width_for(const Device& device, const PixelGrid& grid) {
   return width;
 }
 
-/// Whether there may be two images of a seed in the surroundings of a patch: see exact/group/sizes.cl.
+/// Whether there may be two images of a seed in the surroundings of a patch: see exact/group/stamps.cl.
 bool has_short_period(const PixelGrid& grid) {
   constexpr int surroundings = 64;
   if (grid.is_volume()) return false;

@@ -97,9 +97,9 @@ BOOST_AUTO_TEST_CASE(an_exact_diagram_takes_few_commands_and_reads_nothing) {
     Snap snap;
     std::size_t commands, commands_if_periodic;
   };
-  for (const Case& c : {Case{Shape::group, Snap::to_pixels, 9, 10},
+  for (const Case& c : {Case{Shape::group, Snap::to_pixels, 9, 9},
                         {Shape::vector, Snap::to_pixels, 5, 5},
-                        {Shape::group, Snap::none, 8, 8},
+                        {Shape::group, Snap::none, 9, 9},
                         {Shape::vector, Snap::none, 5, 5}}) {
     for (const Grid& grid : {flat, periodic}) {
       const Device device = shaped(c.shape);

@@ -177,10 +177,7 @@ BOOST_AUTO_TEST_CASE(periodic_axes) {
   }
   check_lists({"circle", {300, 290, Axes::xy}, circle({300, 290}, 300, 140)}, Metric::euclidean, both);
   check_lists({"torus", {1001, 700, Axes::xy}, random_pixels({1001, 700}, 3000, 5)}, Metric::euclidean, both);
-  // The longest period that the index has images for, and one that is labelled by places.
-  for (const int width : {16000, 16001}) {
-    check_lists({"long", {width, 90, Axes::x}, random_pixels({width, 90}, 40, 6)}, Metric::euclidean, full);
-  }
+  check_lists({"long", {16001, 90, Axes::x}, random_pixels({16001, 90}, 40, 6)}, Metric::euclidean, full);
   const Grid tall(70, 31999, Axes::xy);
   for (const std::size_t seeds : {3u, 900u})
     check_lists({"tall", tall, random_pixels(tall, seeds, 7)}, Metric::manhattan, full);

@@ -40,7 +40,6 @@ kernel_files() {
   grep -lE '^ *(VECTOR_KERNEL|kernel) void' kernels/{core,flooding,measures,motion}/*.cl
   echo kernels/exact/group/diagram.cl
   echo kernels/exact/far.cl
-  echo kernels/exact/pixels.cl
   printf 'kernels/volumes/%s.cl\n' jump_flooding seeds
 }
 
@@ -58,9 +57,10 @@ compile() { # TARGET LIBRARY FILE OPTION...
 
 # What programs are built for besides a plain grid: places, and periodic axes.
 more_options() { # FILE METRIC
-  if [[ $1 == kernels/exact/group/diagram.cl ]]; then echo '-DVOROCL_PERIODIC_X -DVOROCL_PERIODIC_Y'; fi
-  if [[ $1 == kernels/exact/pixels.cl ]]; then printf '%s\n' -DVOROCL_FRACTIONS '-DVOROCL_FRACTIONS -DVOROCL_PERIODIC_X -DVOROCL_PERIODIC_Y'; fi
-  if [[ $1 == kernels/exact/pixels.cl && $2 == EUCLIDEAN ]]; then
+  if [[ $1 == kernels/exact/group/diagram.cl ]]; then
+    printf '%s\n' '-DVOROCL_PERIODIC_X -DVOROCL_PERIODIC_Y' -DVOROCL_FRACTIONS '-DVOROCL_FRACTIONS -DVOROCL_PERIODIC_X -DVOROCL_PERIODIC_Y'
+  fi
+  if [[ $1 == kernels/exact/group/diagram.cl && $2 == EUCLIDEAN ]]; then
     echo '-DVOROCL_FRACTIONS -DVOROCL_WEIGHTED -DVOROCL_PERIODIC_X -DVOROCL_PERIODIC_Y'
   fi
   if [[ $1 == kernels/measures/* ]]; then echo '-DVOROCL_DIMENSIONS=3 -DVOROCL_PERIODIC_X -DVOROCL_PERIODIC_Y -DVOROCL_PERIODIC_Z'; fi

@@ -17,7 +17,7 @@ enum class Scene {
   window,       // 300 that fill a plane of three by three such grids: most are outside
   ring,         // in the middle of it all seeds are as near
   blocks,       // full ones: nearly all seeds are hidden by others
-  few,          // far apart: they are found from the top of the pyramid down
+  few,          // far apart: most bins are empty
   long_period,  // of more than 16,000 pixels
   full_size,    // 16,384 on 2048 x 2048 pixels, two frames
 };

@@ -1,7 +1,7 @@
-// The exact diagram in the group shape: all kernels, in the order of their launches. docs/exact.md says how they work
-// together.
+// The program of exact diagrams by places in the group shape, for GPUs, of planes: work-groups label squares
+// of pixels.
 
+#include "exact/group/crowds.cl"
 #include "exact/group/index.cl"
-#include "exact/group/dense.cl"
-#include "exact/group/near.cl"
-#include "exact/group/search.cl"
+#include "exact/group/lists.cl"
+#include "exact/group/stamps.cl"
