@@ -636,6 +636,27 @@ BOOST_AUTO_TEST_CASE(weighted_sets_have_the_cells_of_rational_numbers) {
   BOOST_TEST(empty > 100u);
 }
 
+/// On a small lattice, with small whole weights: bisectors of several sites are one plane, and planes touch
+/// cells.
+BOOST_AUTO_TEST_CASE(weighted_lattices_have_the_cells_of_rational_numbers) {
+  std::mt19937_64 random(8);
+  for (int i = 0; i < 24; ++i) {
+    Set set = {"weighted lattice " + std::to_string(i), {8, 8, 8}, {}};
+    const auto below = [&random](std::uint64_t end) { return static_cast<std::int64_t>(random() % end); };
+    for (int site = 0; site < 20; ++site) {
+      const std::int64_t x = 1 + 2 * below(4), y = 1 + 2 * below(4), z = 1 + 4 * below(2);
+      set.positions.push_back({x, y, z});
+      set.weights.push_back(static_cast<double>(4 * below(3)));
+    }
+    BOOST_TEST_CONTEXT(set.name) {
+      check_by_rational_numbers(set, Axes::none);
+      const ExactCellsResult result = cells_of(set, Axes::none);
+      check_as_a_whole(result);
+      check_polyhedra(result);
+    }
+  }
+}
+
 BOOST_AUTO_TEST_CASE(places_belong_to_the_site_of_the_least_power) {
   // Few heavy sites beside many light ones, some of whose cells are empty, and others far from their sites.
   Set set = {"", {64, 64, 64}, random_positions({64, 64, 64}, 3000, 22)};
