@@ -229,6 +229,7 @@ kernel void list_patches(SCENE_PARAMETERS, global const uint* restrict pending, 
     const int column = left + run % BOX, row = top + run / BOX * RUN;
     int8 least = (int8)INT_MAX;
     const int some = (int)boxes.count[box];
+#pragma unroll 1  // for registers
     for (int i = 0; i < some; ++i)
       least = min(least, keys_of(boxes.term[box][i], column - PATCH / 2, row - PATCH / 2, bits_below));
     // The rows in the grid, and those of them that get labels.
