@@ -147,15 +147,16 @@ Report exact_diagram_by_places(Filling& filling, DiagramState& state) {
     kernel("list_places", group)
         .over_items(items_of_places, given, table_bits, table, count, bits, size, of_seeds, starts, x, y, ids,
                     of_lags);
-    const auto label = [&, &of_order = order, of_has_ids = has_ids, of_first = first, of_last = last](
-                           const char* name, std::size_t items_of_group, std::size_t groups,
-                           const auto&... more) {
+    // Lambdas take no structured bindings but by names of their own.
+    const auto label = [&, &of_starts = starts, &of_x = x, &of_y = y, &of_ids = ids, &of_order = order,
+                        of_first = first, of_last = last](const char* name, std::size_t items_of_group,
+                                                          std::size_t groups, const auto&... more) {
       return kernel(name, items_of_group)
-          .over_items(groups * items_of_group, starts, x, y, ids, of_lags, of_order, of_has_ids, bits, size,
-                      of_first, of_last, state.labels, more...);
+          .over_items(groups * items_of_group, of_starts, of_x, of_y, of_ids, of_lags, of_order, has_ids,
+                      bits, size, of_first, of_last, state.labels, more...);
     };
     const std::size_t items = device.tuning().patch_items;
-    constexpr std::size_t crowds_of_patch = (PATCH / CROWD_SIDE) * (PATCH / CROWD_SIDE);
+    constexpr std::size_t crowds_along = PATCH / CROWD_SIDE, crowds_of_patch = crowds_along * crowds_along;
     label("stamp_patches", items, patches, pending, queue);
     label("list_patches", items, patches, pending, queue);
     const cl::Event end = label("label_crowds", std::min<std::size_t>(items, MOST_OF_CROWD_ITEMS),
