@@ -268,19 +268,9 @@ kernel void label_regions(global const uint* restrict starts, global const int* 
   const box_t own = box_at(item % columns * SIDE, item / columns % rows * SIDE, item / columns / rows * SIDE,
                            SIDE, SIDE, IS_VOLUME ? SIDE : 1);
   const bins_t bins = bins_of(bits, size);
-  const scene_t scene = {bins,
-                         size,
-                         starts,
-                         xs,
-                         ys,
-                         zs,
-                         ids,
-                         IS_WEIGHTED ? lags + bins.rows * bins.slices : lags,
-                         lags,
-                         has_images ? order : 0,
-                         first,
-                         last,
-                         labels};
+  global const int* const of_places = IS_WEIGHTED ? lags + bins.rows * bins.slices : lags;
+  const scene_t scene = {bins, size, starts, xs, ys, zs, ids, of_places,
+                         lags, has_images ? order : 0, first, last, labels};
   if (!is_in_grid(&scene, own)) return;
   const box_t region =
       box_at(own.x / REGION * REGION, own.y / REGION * REGION, own.z, REGION, REGION, REGION_Z);
