@@ -9,14 +9,6 @@
 
 #include "exact_cells/polygon.cl"
 
-#if DIMENSIONS == 3
-#define place_from(at, stride) ((double3)((at)[0], (at)[stride], (at)[2 * (stride)]))
-#define rough_of convert_float3
-#else
-#define place_from(at, stride) ((int2)((at)[0], (at)[stride]))
-#define rough_of convert_float2
-#endif
-
 static inline place_t site_at(const tree_t* tree, uint site) {
   global const NUMBER* const at = tree->sites + (size_t)(site >> FAN_BITS) * (DIMENSIONS * FAN) + (site & (FAN - 1));
   return place_from(at, FAN);

@@ -11,11 +11,15 @@
 #define NUMBER_4 double4
 typedef double3 place_t;
 typedef float3 rough_t;
+#define rough_of convert_float3
+#define place_from(at, stride) ((double3)((at)[0], (at)[stride], (at)[2 * (stride)]))
 #else
 #define NUMBER int
 #define NUMBER_4 int4
 typedef int2 place_t;
 typedef float2 rough_t;
+#define rough_of convert_float2
+#define place_from(at, stride) ((int2)((at)[0], (at)[stride]))
 #endif
 
 #define FAN_BITS 3
@@ -62,17 +66,27 @@ typedef struct {
   (tree)->reach.axis > 0 ? -(tree)->reach.axis : 2 * ((tree)->lower.axis - (at).axis),      \
       (tree)->reach.axis > 0 ? (tree)->reach.axis : 2 * ((tree)->upper.axis - (at).axis)
 
+// What eight numbers are together.
+#define OF_EIGHT(type, name, join)                       \
+  static inline type name(type##8 all) {                 \
+    const type##4 of_four = join(all.lo, all.hi);        \
+    const type##2 of_two = join(of_four.lo, of_four.hi); \
+    return join(of_two.s0, of_two.s1);                   \
+  }
+#define BITS_OR(a, b) ((a) | (b))
+OF_EIGHT(uint, least_of, min)
+OF_EIGHT(float, least_of_floats, fmin)
+OF_EIGHT(float, greatest_of_floats, max)
+OF_EIGHT(double, greatest_of, fmax)
+OF_EIGHT(int, or_of_ints, BITS_OR)
+OF_EIGHT(ulong, or_of, BITS_OR)
+
 // A bit for each lane that holds, and back.
 #define LANE_BITS ((int8)(1, 2, 4, 8, 16, 32, 64, 128))
 static inline int8 lanes_of(int bits) { return (bits & LANE_BITS) != 0; }
-static inline int bits_of_ints(int8 lanes) {
-  const int8 bits = lanes & LANE_BITS;
-  const int4 of_four = bits.lo | bits.hi;
-  const int2 of_two = of_four.lo | of_four.hi;
-  return of_two.s0 | of_two.s1;
-}
+static inline int bits_of_ints(int8 lanes) { return or_of_ints(lanes & LANE_BITS); }
 
-static inline int lowest_bit(int bits) { return 31 - (int)clz(bits & -bits); }
+#define LOWEST_BIT(bits) ((int)popcount(~(bits) & ((bits)-1)))
 
 #define FAR 0xffffffffu  // of those that cut nothing
 
@@ -80,12 +94,6 @@ static inline int lowest_bit(int bits) { return 31 - (int)clz(bits & -bits); }
 static inline uint8 order_of(float8 distances, int8 may_cut) {
   const uint8 order = (as_uint8(distances) & ~(uint)(FAN - 1)) | (uint8)(0, 1, 2, 3, 4, 5, 6, 7);
   return order | ~as_uint8(may_cut);
-}
-
-static inline uint least_of(uint8 numbers) {
-  const uint4 of_four = min(numbers.lo, numbers.hi);
-  const uint2 of_two = min(of_four.lo, of_four.hi);
-  return min(of_two.s0, of_two.s1);
 }
 
 static inline uint8 without(uint8 numbers, uint one) { return numbers | as_uint8(numbers == one); }
@@ -145,12 +153,6 @@ static inline float8 bisectors_at(float8 distances, float8 leads) {
 
 // With what floats may err by, where they are added to a squared distance.
 static inline float8 with_margin(float8 leads) { return leads + 1e-5f * fabs(leads); }
-
-static inline float least_of_floats(float8 numbers) {
-  const float4 of_four = fmin(numbers.lo, numbers.hi);
-  const float2 of_two = fmin(of_four.lo, of_four.hi);
-  return fmin(of_two.s0, of_two.s1);
-}
 
 // The greatest lag of the sites of a leaf.
 static inline double most_lag(global const double* lags, uint leaf, uint count) {

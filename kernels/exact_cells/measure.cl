@@ -22,14 +22,9 @@ static inline int first_edge(const cell_t* cell) {
 
 // Sums are taken in half steps from the site, or with weights, which may put a cell far from its site, from a
 // vertex: where they lose least.
-static inline void measure_cell(cell_t* cell, const tree_t* tree, const near_t* near, MEASURE_PARAMETERS,
-                                uint site) {
+static inline void measure_cell(const cell_t* cell, const tree_t* tree, uint site, MEASURE_PARAMETERS,
+                                global uint* counters) {
   const int2 at = site_at(tree, site);
-  cut_by_all(cell, tree, near, site);
-  if (cell->is_full) {
-    queue[atomic_inc(counters + 1)] = site;
-    return;
-  }
   const uint id = ids[site], edge_count = (uint)cell->size;
   const uint begin = atomic_add(counters, edge_count);
   begins[site] = begin;
@@ -61,6 +56,6 @@ static inline void measure_cell(cell_t* cell, const tree_t* tree, const near_t* 
   vstore2(origin.xy + (convert_double2(at) + (base + moment / (3 * area)) / 2) * step, id, centroids);
 }
 
-CELL_KERNEL(cut, MEASURE_PARAMETERS) { EACH_CELL(measure_cell(&cell, &tree, &near, MEASURE_ARGUMENTS, site)) }
+CELL_KERNEL(cut, MEASURE_PARAMETERS) { EACH_CELL(measure_cell(&cell, &tree, site, MEASURE_ARGUMENTS)) }
 
 #endif

@@ -129,12 +129,6 @@ static inline float set_vertex(cell_t* cell, int k, double2 vertex) {
   return reach;
 }
 
-static inline float greatest_of(float8 numbers) {
-  const float4 of_four = max(numbers.lo, numbers.hi);
-  const float2 of_two = max(of_four.lo, of_four.hi);
-  return max(of_two.s0, of_two.s1);
-}
-
 // On which side of a line a vertex is, in whole numbers: 1 is beyond it, 0 on it.
 static inline int exact_side(const cell_t* cell, int k, line_t line) {
   const line_t p = line_of(cell, k), q = line_of(cell, k + 1 < cell->size ? k + 1 : 0);
@@ -143,10 +137,7 @@ static inline int exact_side(const cell_t* cell, int k, line_t line) {
 }
 
 static inline int bits_of_longs(long8 lanes) {
-  const long8 bits = lanes & (long8)(1, 2, 4, 8, 16, 32, 64, 128);
-  const long4 of_four = bits.lo | bits.hi;
-  const long2 of_two = of_four.lo | of_four.hi;
-  return (int)(of_two.s0 | of_two.s1);
+  return (int)or_of(as_ulong8(lanes) & (ulong8)(1, 2, 4, 8, 16, 32, 64, 128));
 }
 
 static inline int highest_bit(int bits) { return 31 - (int)clz(bits); }
@@ -160,7 +151,7 @@ static inline int2 beyond(const cell_t* cell, int k, line_t line) {
   const double8 doubt = 0x1p-49 * (fabs(ax) + fabs(by) + fabs(c));
   int is_beyond = bits_of_longs(over > doubt), is_or_on = is_beyond;
   for (int unsure = bits_of_longs(!(fabs(over) > doubt)); unsure != 0; unsure &= unsure - 1) {
-    const int lane = lowest_bit(unsure), side = exact_side(cell, k + lane, line);
+    const int lane = LOWEST_BIT(unsure), side = exact_side(cell, k + lane, line);
     is_beyond |= (side > 0) << lane;
     is_or_on |= (side >= 0) << lane;
   }
@@ -196,12 +187,10 @@ static inline void take_edge(cell_t* cell, line_t line) {
   }
 }
 
-static inline long square_of(int2 vector) { return (long)vector.s0 * vector.s0 + (long)vector.s1 * vector.s1; }
-
 // The bisector of a site with this lag and another one that is so far away.
 static inline line_t line_towards(global const double* lags, double lag, int2 way, uint site, int image) {
-  const long more = (long)lag_of(lags, site) - (long)lag;
-  const line_t line = {square_of(way) + more, way.s0, way.s1, site, image};
+  const long more = (long)lag_of(lags, site) - (long)lag, a = way.s0, b = way.s1;
+  const line_t line = {a * a + b * b + more, way.s0, way.s1, site, image};
   return line;
 }
 
@@ -216,9 +205,9 @@ static inline bool cut(cell_t* cell, int2 way, uint site, int image) {
     const int there = (1 << min(size - k, LANES)) - 1, gone = sides.s1 & there, kept = ~sides.s1 & there;
     is_cut |= sides.s0 & there;
     on += (int)popcount((uint)(gone & ~sides.s0));
-    first_gone = gone != 0 ? min(first_gone, k + lowest_bit(gone)) : first_gone;
+    first_gone = gone != 0 ? min(first_gone, k + LOWEST_BIT(gone)) : first_gone;
     last_gone = gone != 0 ? k + highest_bit(gone) : last_gone;
-    first_kept = kept != 0 ? min(first_kept, k + lowest_bit(kept)) : first_kept;
+    first_kept = kept != 0 ? min(first_kept, k + LOWEST_BIT(kept)) : first_kept;
     last_kept = kept != 0 ? k + highest_bit(kept) : last_kept;
     reaches = max(reaches, select(vload8(0, cell->reaches + k), (float8)0, lanes_of(gone)));
   }
@@ -253,7 +242,7 @@ static inline bool cut(cell_t* cell, int2 way, uint site, int image) {
   end_edges(cell, new_size);
   set_line(cell, at + 1, line);
   const float begin_reach = set_vertex(cell, at, ends.lo), end_reach = set_vertex(cell, at + 1, ends.hi);
-  cell->reach = max(greatest_of(reaches), max(begin_reach, end_reach));
+  cell->reach = max(greatest_of_floats(reaches), max(begin_reach, end_reach));
   return true;
 }
 

@@ -33,15 +33,19 @@ static inline wide_t sum(wide_t a, wide_t b) {
   return wide;
 }
 
+static inline wide_t negative(wide_t a) {
+  const wide_t wide = {0 - a.low, (long)(~(ulong)a.high + (a.low == 0 ? 1u : 0u))};
+  return wide;
+}
+
 static inline int sign_of(wide_t wide) { return wide.high < 0 ? -1 : (wide.high != 0 || wide.low != 0); }
 
 // Rounded: by less than 2^-52 of the number.
 static inline double to_double(wide_t wide) {
   const bool is_negative = wide.high < 0;
-  const ulong low = is_negative ? 0 - wide.low : wide.low;
-  const ulong high = is_negative ? ~(ulong)wide.high + (wide.low == 0 ? 1u : 0u) : (ulong)wide.high;
-  const double size = convert_double(high) * 18446744073709551616.0 + convert_double(low);
-  return is_negative ? -size : size;
+  const wide_t size = is_negative ? negative(wide) : wide;
+  const double rounded = convert_double((ulong)size.high) * 0x1p64 + convert_double(size.low);
+  return is_negative ? -rounded : rounded;
 }
 
 #endif

@@ -186,7 +186,8 @@ static inline bool add_leaf(list_t* list, search_t* search, const globe_t* globe
   const float8 lead = select((float8)INFINITY, leads.lead, there);
   const float least = least_of_floats(lead);
   if (least < 0) {
-    const uint nearest = leaf * FAN + (uint)lowest_bit(bits_of_ints(lead == least));
+    const int nearest_bits = bits_of_ints(lead == least);
+    const uint nearest = leaf * FAN + (uint)LOWEST_BIT(nearest_bits);
     set_best(search, direction_at(globe, nearest));
     leads = leads_of_places(search, x, y, z);
   }
@@ -195,7 +196,7 @@ static inline bool add_leaf(list_t* list, search_t* search, const globe_t* globe
       shorten(list, search, globe, is_pixel);
       if (list->size == MOST_CANDIDATES) return false;
     }
-    list->sites[list->size++] = leaf * FAN + (uint)lowest_bit(some);
+    list->sites[list->size++] = leaf * FAN + (uint)LOWEST_BIT(some);
   }
   return true;
 }

@@ -190,14 +190,16 @@ std::pair<cl::Event, cl::Event> ExactCellsState::start(const Device& on, SitesOf
   room(found, room_for_edges, kind().bytes_of_edge);
   room(counters, 2, sizeof(cl_uint));
   const cl::Event first = fill(on, counters, cl_uint{0}, 2);
-  const cl::Event cleared =
-      kernel(kind().cells_file, "clear_cells")
-          .over_items(cells, static_cast<cl_uint>(cells), static_cast<cl_uint>(kind().dimensions), areas,
-                      centroids, perimeters, offsets, neighbours, flags);
+  if (cells == 0) return {first, first};
+  // Cells of coincident points but the first, and of points that are not there, are empty.
+  for (const cl::Buffer* const numbers : {&areas, &perimeters}) fill(on, *numbers, cl_double{0}, cells);
+  for (const cl::Buffer* const counts : {&offsets, &neighbours}) fill(on, *counts, cl_uint{0}, cells);
+  fill(on, centroids, std::numeric_limits<cl_double>::quiet_NaN(), kind().dimensions * cells);
+  const cl::Event cleared = fill(on, flags, certified, cells);
   const cl::Event last = cut_all([this](std::size_t items, cl_uint of_item) {
     return measure(kind().cells_file, "cut_cells", items, of_item);
   });
-  return {first, site_count > 0 ? last : cells > 0 ? cleared : first};
+  return {first, site_count > 0 ? last : cleared};
 }
 
 template <typename Run>

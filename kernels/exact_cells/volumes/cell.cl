@@ -70,17 +70,11 @@ typedef struct {
   bool is_full, is_broken, is_doubtful;
 } __attribute__((aligned(64))) cell_t;
 
-static inline int lowest_of(ulong word) { return (int)popcount(~word & (word - 1)); }
-static inline ulong or_of(ulong8 a) {
-  const ulong4 b = a.lo | a.hi;
-  const ulong2 c = b.lo | b.hi;
-  return c.s0 | c.s1;
-}
-static inline double greatest_of(double8 a) {
-  const double4 b = fmax(a.lo, a.hi);
-  const double2 c = fmax(b.lo, b.hi);
-  return fmax(c.s0, c.s1);
-}
+// Goes through the vertices of which words have the bits: `v` is each of them, in order.
+#define EACH_VERTEX(v, words)        \
+  for (int w = 0, v; w < WORDS; ++w) \
+    for (ulong left = (words)[w]; v = w * 64 + LOWEST_BIT(left), left != 0; left &= left - 1)
+
 static inline double norm_of(double3 n) { return fabs(n.x) + fabs(n.y) + fabs(n.z); }
 
 #endif

@@ -16,18 +16,15 @@
 static inline int list_edges(cell_t* cell) {
   int edges = 0;
   for (int p = 0; p < cell->count; ++p) cell->corners[p] = 0;
-  for (int w = 0; w < WORDS; ++w) {
-    for (ulong left = cell->alive[w]; left != 0; left &= left - 1) {
-      const index_t v = (index_t)(w * 64 + lowest_of(left));
-      const indices_t t = cell->triples[v], to = cell->neighbours[v];
-      cell->corners[t.s0] = cell->corners[t.s1] = cell->corners[t.s2] = 3;
-      cell->edges[edges] = (indices_t)(v, to.s0, t.s0, t.s1);
-      edges += to.s0 > v;
-      cell->edges[edges] = (indices_t)(v, to.s1, t.s1, t.s2);
-      edges += to.s1 > v;
-      cell->edges[edges] = (indices_t)(v, to.s2, t.s2, t.s0);
-      edges += to.s2 > v;
-    }
+  EACH_VERTEX(v, cell->alive) {
+    const indices_t t = cell->triples[v], to = cell->neighbours[v];
+    cell->corners[t.s0] = cell->corners[t.s1] = cell->corners[t.s2] = 3;
+    cell->edges[edges] = (indices_t)((index_t)v, to.s0, t.s0, t.s1);
+    edges += to.s0 > v;
+    cell->edges[edges] = (indices_t)((index_t)v, to.s1, t.s1, t.s2);
+    edges += to.s1 > v;
+    cell->edges[edges] = (indices_t)((index_t)v, to.s2, t.s2, t.s0);
+    edges += to.s2 > v;
   }
   return edges;
 }
@@ -57,12 +54,9 @@ static inline void count_corners(cell_t* cell, int edges) {
 // Where ties were broken, and with weights, planes that are almost parallel may cross: their vertices are computed from
 // whole numbers.
 static inline void place_rough(cell_t* cell) {
-  for (int w = 0; w < WORDS; ++w) {
-    for (ulong left = cell->alive[w]; left != 0; left &= left - 1) {
-      const int v = w * 64 + lowest_of(left);
-      const double far = norm_of((double3)(cell->x[v], cell->y[v], cell->z[v]));
-      if (!(cell->error[v] <= 0x1p-43 * far)) place_exactly(cell, v);
-    }
+  EACH_VERTEX(v, cell->alive) {
+    const double far = norm_of((double3)(cell->x[v], cell->y[v], cell->z[v]));
+    if (!(cell->error[v] <= 0x1p-43 * far)) place_exactly(cell, v);
   }
 }
 
@@ -77,18 +71,13 @@ static inline int finish_cell(cell_t* cell) {
 // An edge between u and v gives n.(u x v) to the faces on both sides: areas, volume and centroid. Sums are
 // taken in half steps from the site, or with weights, which may put a cell far from its site, from a vertex:
 // where they lose least.
-static inline void measure_cell(cell_t* cell, const tree_t* tree, const near_t* near, MEASURE_PARAMETERS, uint site) {
+static inline void measure_cell(cell_t* cell, const tree_t* tree, uint site, MEASURE_PARAMETERS,
+                                global uint* counters) {
   const uint id = ids[site];
-  cut_by_all(cell, tree, near, site);
-  if (cell->is_full) {
-    queue[atomic_inc(counters + 1)] = site;
-    edge_counts[id] = 0;
-    return;
-  }
   const int edges = finish_cell(cell);
   double3 base = 0;
   for (int w = 0; w < WORDS && cell->lags != 0; ++w) {
-    const int v = w * 64 + lowest_of(cell->alive[w]);
+    const int v = w * 64 + LOWEST_BIT(cell->alive[w]);
     if (cell->alive[w] != 0) base = (double3)(cell->x[v], cell->y[v], cell->z[v]);
   }
   for (int p = 0; p < cell->count; ++p) {
@@ -97,7 +86,7 @@ static inline void measure_cell(cell_t* cell, const tree_t* tree, const near_t* 
     cell->sums[p] = 0;
     cell->scales[p] = (plane.w - (plane.x * base.x + plane.y * base.y + plane.z * base.z)) / square;  // c / |n|^2
   }
-  double mx = 0, my = 0, mz = 0;
+  double3 moment = 0;
   for (int i = 0; i < edges; ++i) {
     const indices_t edge = cell->edges[i];
     const int v = edge.s0, u = edge.s1, p = edge.s2, q = edge.s3;
@@ -109,11 +98,8 @@ static inline void measure_cell(cell_t* cell, const tree_t* tree, const near_t* 
     cell->sums[p] += part_p;
     cell->sums[q] += part_q;
     const double share = cell->scales[p] * part_p + cell->scales[q] * part_q;
-    mx += share * (vx + ux);
-    my += share * (vy + uy);
-    mz += share * (vz + uz);
+    moment += share * (double3)(vx + ux, vy + uy, vz + uz);
   }
-  double3 moment = (double3)(mx, my, mz);
   uint faces = 0, touching = 0;
   for (int p = 0; p < cell->count; ++p) faces += cell->corners[p] > 2;
   const uint begin = atomic_add(counters, faces);
@@ -150,17 +136,11 @@ static inline void measure_cell(cell_t* cell, const tree_t* tree, const near_t* 
 // corners: so those of a cell begin at 2 and 6 times its offset.
 #define OUTLINE_PARAMETERS                                                                                  \
   global const uint *ids, double4 origin, double step, global const uint *offsets, global double *vertices, \
-      global uint *vertex_counts, global uint *corner_counts, global uint *corners, global uint *counters,  \
-      global uint *queue
-#define OUTLINE_ARGUMENTS ids, origin, step, offsets, vertices, vertex_counts, corner_counts, corners, counters, queue
+      global uint *vertex_counts, global uint *corner_counts, global uint *corners
+#define OUTLINE_ARGUMENTS ids, origin, step, offsets, vertices, vertex_counts, corner_counts, corners
 
-static inline void outline_cell(cell_t* cell, const tree_t* tree, const near_t* near, OUTLINE_PARAMETERS, uint site) {
+static inline void outline_cell(cell_t* cell, const tree_t* tree, uint site, OUTLINE_PARAMETERS) {
   const uint id = ids[site], offset = offsets[id];
-  cut_by_all(cell, tree, near, site);
-  if (cell->is_full) {
-    queue[atomic_inc(counters + 1)] = site;
-    return;
-  }
   const int edges = finish_cell(cell);
   // Vertices at one place get the number of one: `slots` of the least of those that edges without length
   // join.
@@ -178,19 +158,16 @@ static inline void outline_cell(cell_t* cell, const tree_t* tree, const near_t* 
   }
   const double3 at = site_at(tree, site);
   uint vertex_count = 0;
-  for (int w = 0; w < WORDS; ++w) {
-    for (ulong left = cell->alive[w]; left != 0; left &= left - 1) {
-      const int v = w * 64 + lowest_of(left);
-      const indices_t t = cell->triples[v];
-      cell->at[t.s0] = cell->at[t.s1] = cell->at[t.s2] = (index_t)v;
-      if (numbers[v] != v) {
-        cell->stays[v] = cell->stays[numbers[v]];  // a lesser vertex
-        continue;
-      }
-      cell->stays[v] = (index_t)vertex_count;
-      const double3 from_site = (double3)(cell->x[v], cell->y[v], cell->z[v]) / 2;
-      vstore3(origin.xyz + (at + from_site) * step, 2 * (size_t)offset + vertex_count++, vertices);
+  EACH_VERTEX(v, cell->alive) {
+    const indices_t t = cell->triples[v];
+    cell->at[t.s0] = cell->at[t.s1] = cell->at[t.s2] = (index_t)v;
+    if (numbers[v] != v) {
+      cell->stays[v] = cell->stays[numbers[v]];  // a lesser vertex
+      continue;
     }
+    cell->stays[v] = (index_t)vertex_count;
+    const double3 from_site = (double3)(cell->x[v], cell->y[v], cell->z[v]) / 2;
+    vstore3(origin.xyz + (at + from_site) * step, 2 * (size_t)offset + vertex_count++, vertices);
   }
   vertex_counts[id] = vertex_count;
   uint face = offset;
@@ -209,8 +186,8 @@ static inline void outline_cell(cell_t* cell, const tree_t* tree, const near_t* 
   }
 }
 
-CELL_KERNEL(cut, MEASURE_PARAMETERS) { EACH_CELL(measure_cell(&cell, &tree, &near, MEASURE_ARGUMENTS, site)) }
+CELL_KERNEL(cut, MEASURE_PARAMETERS) { EACH_CELL(measure_cell(&cell, &tree, site, MEASURE_ARGUMENTS)) }
 
-CELL_KERNEL(outline, OUTLINE_PARAMETERS) { EACH_CELL(outline_cell(&cell, &tree, &near, OUTLINE_ARGUMENTS, site)) }
+CELL_KERNEL(outline, OUTLINE_PARAMETERS) { EACH_CELL(outline_cell(&cell, &tree, site, OUTLINE_ARGUMENTS)) }
 
 #endif

@@ -96,7 +96,7 @@ static inline float cut_by_near(cell_t* cell, const tree_t* tree, const near_t* 
     const int8 is_near = bisectors_of_listed(tree, near, cell->lag, k, from) < end;
     const int8 may_cut = is_near & (vload8(0, buckets + k) == BUCKETS);
     for (int left = bits_of_ints(may_cut); left != 0; left &= left - 1) {
-      if (cut_by_listed(cell, near, k + lowest_bit(left), exact_from, site)) end = end_of(cell);
+      if (cut_by_listed(cell, near, k + LOWEST_BIT(left), exact_from, site)) end = end_of(cell);
     }
   }
   return end;

@@ -109,11 +109,9 @@ static inline void place_vertices(cell_t* cell, int i, double4 n) {
 // Forgets planes that no vertex has.
 static inline void forget_planes(cell_t* cell) {
   for (int p = 0; p < cell->count; ++p) cell->at[p] = 0;
-  for (int w = 0; w < WORDS; ++w) {
-    for (ulong left = cell->alive[w]; left != 0; left &= left - 1) {
-      const indices_t t = cell->triples[w * 64 + lowest_of(left)];
-      cell->at[t.s0] = cell->at[t.s1] = cell->at[t.s2] = 1;
-    }
+  EACH_VERTEX(v, cell->alive) {
+    const indices_t t = cell->triples[v];
+    cell->at[t.s0] = cell->at[t.s1] = cell->at[t.s2] = 1;
   }
   int kept = 0;
   for (int p = 0; p < cell->count; ++p) {
@@ -123,11 +121,9 @@ static inline void forget_planes(cell_t* cell) {
     cell->images[kept] = cell->images[p];
     cell->at[p] = (index_t)kept++;
   }
-  for (int w = 0; w < WORDS; ++w) {
-    for (ulong left = cell->alive[w]; left != 0; left &= left - 1) {
-      CELL_SPACE indices_t* const t = &cell->triples[w * 64 + lowest_of(left)];
-      *t = (indices_t)(cell->at[t->s0], cell->at[t->s1], cell->at[t->s2], 0);
-    }
+  EACH_VERTEX(v, cell->alive) {
+    CELL_SPACE indices_t* const t = &cell->triples[v];
+    *t = (indices_t)(cell->at[t->s0], cell->at[t->s1], cell->at[t->s2], 0);
   }
   cell->count = kept;
 }
@@ -154,20 +150,17 @@ static inline bool is_ring(cell_t* cell, int edges) {
 // Lists the edges from vertices that go to vertices that stay. Returns how many.
 static inline int list_ring(cell_t* cell) {
   int edges = 0;
-  for (int w = 0; w < WORDS; ++w) {
-    for (ulong left = cell->gone[w]; left != 0; left &= left - 1) {
-      const int v = w * 64 + lowest_of(left);
-      const indices_t t = cell->triples[v], to = cell->neighbours[v];
+  EACH_VERTEX(v, cell->gone) {
+    const indices_t t = cell->triples[v], to = cell->neighbours[v];
 #define LIST_EDGE(p, q, vertex) \
   cell->ring_p[edges] = p;      \
   cell->ring_q[edges] = q;      \
   cell->stays[edges] = vertex;  \
   edges += (int)(~(cell->gone[ONE_WORD ? 0 : vertex >> 6] >> (vertex & 63)) & 1);
-      LIST_EDGE(t.s0, t.s1, to.s0)
-      LIST_EDGE(t.s1, t.s2, to.s1)
-      LIST_EDGE(t.s2, t.s0, to.s2)
-      edges = min(edges, ROOM + 8);
-    }
+    LIST_EDGE(t.s0, t.s1, to.s0)
+    LIST_EDGE(t.s1, t.s2, to.s1)
+    LIST_EDGE(t.s2, t.s0, to.s2)
+    edges = min(edges, ROOM + 8);
   }
   return edges;
 }
@@ -181,28 +174,25 @@ static inline void find_slots(cell_t* cell, int edges) {
       cell->alive[word] = ~0UL;
       empty = ~cell->alive[++word];
     }
-    const int slot = word * 64 + lowest_of(empty);
+    const int slot = word * 64 + LOWEST_BIT(empty);
     empty &= empty - 1;
     cell->slots[i] = (index_t)slot;
   }
   cell->alive[word] = ~empty;
   for (int w = 0; w < WORDS; ++w) {
     if (ONE_WORD || cell->alive[w] != 0) cell->top = w * 64 + 64 - (int)clz(cell->alive[w]);
-    for (ulong left = cell->gone[w] & ~cell->alive[w]; left != 0; left &= left - 1) {
-      const int v = w * 64 + lowest_of(left);
-      cell->x[v] = cell->y[v] = cell->z[v] = cell->error[v] = 0;
-    }
   }
+  EACH_VERTEX(v, cell->gone) { cell->x[v] = cell->y[v] = cell->z[v] = cell->error[v] = 0; }
 }
 
 // Whether none of the vertices that are `unsure` is beyond a plane, as of many planes in lattices. Such a plane has no
 // face, unless weights put it where another one is.
 static inline bool only_touches(const cell_t* cell, double4 plane, uint site) {
-  for (int w = 0; w < WORDS && cell->lags == 0; ++w) {
-    for (ulong left = cell->unsure[w]; left != 0; left &= left - 1)
-      if (side_of(cell, w * 64 + lowest_of(left), plane, site, true) > 0) return false;
+  if (cell->lags != 0) return false;
+  EACH_VERTEX(v, cell->unsure) {
+    if (side_of(cell, v, plane, site, true) > 0) return false;
   }
-  return cell->lags == 0;
+  return true;
 }
 
 // Cuts off what lies beyond the bisector of a site that is n away. Returns whether that is anything.
@@ -225,7 +215,7 @@ static inline bool cut(cell_t* cell, double3 n, uint site, int image) {
   int kept = 0;
   for (int w = 0; w < WORDS; ++w) {
     for (ulong left = cell->unsure[w]; left != 0; left &= left - 1) {
-      const int k = lowest_of(left);
+      const int k = LOWEST_BIT(left);
       if (side_of(cell, w * 64 + k, (double4)(n, c), site, false) > 0) cell->gone[w] |= 1UL << k;
     }
     any |= cell->gone[w];

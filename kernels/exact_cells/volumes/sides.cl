@@ -20,11 +20,6 @@
 
 #include "exact_cells/volumes/cell.cl"
 
-static inline wide_t negative(wide_t a) {
-  const wide_t wide = {0 - a.low, (long)(~(ulong)a.high + (a.low == 0 ? 1u : 0u))};
-  return wide;
-}
-
 static inline wide_t times_unsigned(ulong a, long b) {
   const wide_t wide = {a * (ulong)b, (long)(upper_half(a, (ulong)b) - (b < 0 ? a : 0))};
   return wide;
@@ -34,10 +29,6 @@ static inline wide_t times(wide_t a, long b) {
   const wide_t upper = {0, (long)((ulong)a.high * (ulong)b)};
   return sum(times_unsigned(a.low, b), upper);
 }
-
-// A plane in whole numbers, of which those of walls are short.
-#define WALL 0x1p39
-static inline double4 whole_plane(double4 plane, uint site) { return site == NO_CELL ? plane / WALL : plane; }
 
 static inline wide_t minor_of(long a, long b, long c, long d) { return sum(product(a, d), negative(product(b, c))); }
 
@@ -95,12 +86,27 @@ static inline wide_t lag_beyond(const cell_t* cell, uint site) {
   return sum(whole(cell->lags[site]), negative(whole(cell->lag)));
 }
 
-// The c of a plane.
-static inline wide_t constant_of(const cell_t* cell, long3 n, double c, uint site) {
-  if (site == NO_CELL) return product((long)c, 1);
-  const wide_t square = sum(sum(product(n.x, n.x), product(n.y, n.y)), product(n.z, n.z));
-  if (cell->lags == 0) return square;
-  return sum(square, lag_beyond(cell, site));
+// The n and c of a plane in whole numbers, of which those of walls are short.
+#define WALL 0x1p39
+static inline void find_whole(const cell_t* cell, double4 plane, uint site, long3* n, wide_t* c) {
+  const double4 whole = site == NO_CELL ? plane / WALL : plane;
+  *n = convert_long3(whole.xyz);
+  if (site == NO_CELL) {
+    *c = product((long)whole.w, 1);
+  } else {
+    *c = sum(sum(product(n->x, n->x), product(n->y, n->y)), product(n->z, n->z));
+    if (cell->lags != 0) *c = sum(*c, lag_beyond(cell, site));
+  }
+}
+
+// The same of a vertex's planes, and the sites behind these.
+static inline void find_planes(const cell_t* cell, int v, long3* n, wide_t* c, uint* sites) {
+  const indices_t t = cell->triples[v];
+  const index_t of[3] = {t.s0, t.s1, t.s2};
+  for (int k = 0; k < 3; ++k) {
+    sites[k] = cell->sites[of[k]];
+    find_whole(cell, cell->planes[of[k]], sites[k], &n[k], &c[k]);
+  }
 }
 
 // Of four planes, for each the determinant of the three others, with a sign.
@@ -122,16 +128,11 @@ static inline void find_determinants(const long3* n, wide_t* determinants) {
 // On which side of a plane a vertex is: 1 is beyond it. 0 only if `is_plain`, or if no weights make a
 // difference.
 static inline int side_of(const cell_t* cell, int v, double4 plane, uint site, bool is_plain) {
-  const indices_t t = cell->triples[v];
-  const uint sites[4] = {cell->sites[t.s0], cell->sites[t.s1], cell->sites[t.s2], site};
-  const double4 planes[4] = {cell->planes[t.s0], cell->planes[t.s1], cell->planes[t.s2], plane};
+  uint sites[4] = {0, 0, 0, site};
   long3 n[4];
   wide_t factors[4], determinants[4];
-  for (int k = 0; k < 4; ++k) {
-    const double4 whole = whole_plane(planes[k], sites[k]);
-    n[k] = convert_long3(whole.xyz);
-    factors[k] = constant_of(cell, n[k], whole.w, sites[k]);
-  }
+  find_planes(cell, v, n, factors, sites);
+  find_whole(cell, plane, site, &n[3], &factors[3]);
   find_determinants(n, determinants);
   const int side = sign_of_sum(factors, determinants);
   if (side != 0 || is_plain) return side;
@@ -171,15 +172,10 @@ static inline int side_of(const cell_t* cell, int v, double4 plane, uint site, b
 
 // A vertex from whole numbers, where doubles are too rough: where its planes are almost the same.
 static inline void place_exactly(cell_t* cell, int v) {
-  const indices_t t = cell->triples[v];
-  const index_t of[3] = {t.s0, t.s1, t.s2};
+  uint sites[3];
   long3 n[3];
   wide_t c[3], x[3], y[3], z[3];
-  for (int k = 0; k < 3; ++k) {
-    const double4 plane = whole_plane(cell->planes[of[k]], cell->sites[of[k]]);
-    n[k] = convert_long3(plane.xyz);
-    c[k] = constant_of(cell, n[k], plane.w, cell->sites[of[k]]);
-  }
+  find_planes(cell, v, n, c, sites);
   for (int k = 0; k < 3; ++k) {
     const long3 p = n[k == 2 ? 0 : k + 1], q = n[k == 0 ? 2 : k - 1];
     x[k] = minor_of(p.y, p.z, q.y, q.z);
@@ -190,7 +186,7 @@ static inline void place_exactly(cell_t* cell, int v) {
   cell->x[v] = sum_of_products(c, x) / d;
   cell->y[v] = sum_of_products(c, y) / d;
   cell->z[v] = sum_of_products(c, z) / d;
-  cell->error[v] = 0x1p-49 * (fabs(cell->x[v]) + fabs(cell->y[v]) + fabs(cell->z[v]));
+  cell->error[v] = 0x1p-49 * norm_of((double3)(cell->x[v], cell->y[v], cell->z[v]));
 }
 
 #endif
