@@ -1,10 +1,11 @@
-"""Cells as polygons and polyhedra, against SciPy, freud, Shapely and GeoPandas."""
+"""Cells as polygons and polyhedra, against SciPy, freud, Shapely, GeoPandas and PyVista."""
 
 import freud
 import geopandas
 import numpy as np
 import pandas
 import pytest
+import pyvista
 import shapely
 from scipy.spatial import ConvexHull, Voronoi
 
@@ -282,6 +283,7 @@ def test_tables_of_volumes(places):
         (found.to_geopandas, "of planes"),
         (lambda: found.polygon(0), "of planes"),
         (lambda: found.polyhedron(0), "polyhedra=True"),
+        (found.to_pyvista, "polyhedra=True"),
         (lambda: vorocl.exact_cells(places[:, :2], BOUNDS, polyhedra=True), "of volumes"),
         (lambda: vorocl.exact_cells(places, BOUNDS), r"\(N, 2\)"),
         (lambda: vorocl.exact_cells(places, BOX, periodic=(True, True)), "three booleans"),
@@ -294,6 +296,24 @@ def test_tables_of_volumes(places):
             call()
     with pytest.raises(vorocl.BadPoint):
         vorocl.exact_cells(places + (0, 0, 1), BOX)
+
+
+def test_pyvista_by_one_call(places):
+    given = places.copy()
+    given[7] = np.nan
+    found = vorocl.exact_cells(given, BOX, polyhedra=True)
+    grid = found.to_pyvista()
+    assert grid.n_cells == 599 and list(grid["row"][6:8]) == [6, 8]
+    assert (grid.celltypes == pyvista.CellType.POLYHEDRON).all()
+    np.testing.assert_array_equal(grid["volume"], found.cells["volume"][grid["row"]])
+    for cell in range(0, 599, 20):
+        vertices, faces = found.polyhedron(grid["row"][cell])
+        shown = grid.get_cell(cell)
+        assert ConvexHull(shown.points).volume == pytest.approx(grid["volume"][cell], rel=1e-9)
+        assert len(shown.faces) == len(faces)
+        for face, corners in zip(shown.faces, faces):
+            np.testing.assert_array_equal(face.points, vertices[corners])
+    assert vorocl.exact_cells(np.zeros((0, 3)), BOX, polyhedra=True).to_pyvista().n_cells == 0
 
 
 def test_weighted_cells_own_the_places_of_the_least_power(points, places):

@@ -168,6 +168,10 @@ class ExactCells(_Cells):
         if self._is_volume:
             raise BadArgument(f"{what} are of planes; these are the cells of a volume")
 
+    def _require_polyhedra(self) -> None:
+        if not hasattr(self, "corners"):
+            raise BadArgument("these cells have no polyhedra: cut a volume with polyhedra=True")
+
     def polygon(self, row: int) -> NDArray[np.float64]:
         """Return the vertices of one cell of a plane, shape (K, 2): those of an empty cell are none."""
         self._refuse_volume("polygons")
@@ -189,11 +193,42 @@ class ExactCells(_Cells):
         >>> vertices.max(axis=0), len(faces)
         (array([2., 2., 2.]), 6)
         """
-        if not hasattr(self, "corners"):
-            raise BadArgument("these cells have no polyhedra: cut a volume with polyhedra=True")
+        self._require_polyhedra()
         first, end = self.vertex_offsets[row], self.vertex_offsets[row + 1]
         begins = self.corner_offsets[self.offsets[row] : int(self.offsets[row + 1]) + 1]
         return self.vertices[first:end], [self.corners[begin:behind] - first for begin, behind in zip(begins, begins[1:])]
+
+    def to_pyvista(self) -> Any:
+        """Return an UnstructuredGrid of PyVista: the polyhedra of cells that are not empty, with their ``row`` and all fields.
+
+        Raises
+        ------
+        BadArgument
+            If the cells were cut without ``polyhedra=True``.
+
+        Examples
+        --------
+        >>> import vorocl
+        >>> found = vorocl.exact_cells([(1, 1, 1), (3, 1, 1)], (0, 0, 0, 4, 2, 2), polyhedra=True)
+        >>> grid = found.to_pyvista()  # doctest: +SKIP
+        >>> grid.plot(scalars="volume")  # doctest: +SKIP
+        """
+        self._require_polyhedra()
+        pyvista: Any = import_module("pyvista")
+        counts = np.diff(self.offsets.astype(np.int64))
+        full = np.flatnonzero(counts)
+        # As VTK has it: before the corners of each face stands how many they are, and before the faces of each cell how many
+        # numbers follow, and how many faces.
+        faces = np.insert(self.corners, self.corner_offsets[:-1], np.diff(self.corner_offsets))
+        places = self.corner_offsets + np.arange(len(self.corner_offsets))
+        begins = places[self.offsets[full]]
+        heads = np.column_stack([1 + places[self.offsets[full + 1]] - begins, counts[full]])
+        cells = np.insert(faces, np.repeat(begins, 2), heads.ravel())
+        grid = pyvista.UnstructuredGrid(cells, np.full(len(full), pyvista.CellType.POLYHEDRON), self.vertices)
+        grid.cell_data["row"] = full
+        for name in EXACT_VOLUME_CELL.names or ():
+            grid.cell_data[name] = self.cells[name][full]
+        return grid
 
     def to_shapely(self) -> NDArray[Any]:
         """Return the polygons of Shapely, one per point, by one call of it; empty ones of empty cells.
