@@ -136,8 +136,8 @@ void prepare_volumes(const Device& device) {
   }
 }
 
-/// Images of planes and volumes, by keys of 32 and of 64 bits; those of masks as seeds by both metrics; seeds
-/// close together.
+/// Images of planes and volumes, with squared distances of 32 and of 64 bits; those of masks as seeds by both
+/// metrics; seeds close together.
 void prepare_images(const Device& device) {
   for (const Grid& grid : {Grid(300, 270), Grid(40, 40, 40)}) {
     std::vector<std::uint8_t> image(grid.pixels(), 1);
@@ -150,8 +150,8 @@ void prepare_images(const Device& device) {
       transform.run({image.data(), PixelType::uint8}, targets);
     }
     for (const Metric metric : {Metric::euclidean, Metric::manhattan}) {
-      if (device.tuning().shape == Shape::group || (grid.is_volume() && metric == Metric::manhattan))
-        continue;
+      const bool is_not_taken = metric == Metric::manhattan || device.tuning().shape == Shape::group;
+      if (grid.is_volume() && is_not_taken) continue;
       Diagram diagram(device, grid);
       exact_diagram(Seeds::from_mask(device, grid, image), diagram, {metric});
       diagram.wait();

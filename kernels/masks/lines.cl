@@ -272,12 +272,6 @@ static bool find_along_line(const line_t* l) {
   return true;
 }
 
-// How far the site of a row or column is.
-INLINE int16 way_of(int16 far, int period) {
-  const int16 way = as_int16(abs(far));
-  return period == 0 ? way : min(way, period - way);
-}
-
 // A site's part of a distance, of its way along an axis: no more than `limit`. Ways from `most` on have more.
 INLINE keys part_of(int16 way, int most, one_key square) {
 #ifdef VOROCL_MANHATTAN

@@ -3,12 +3,9 @@
 #ifndef VOROCL_MASKS_ROWS
 #define VOROCL_MASKS_ROWS
 
-#include "core/abi.cl"
-#include "masks/sizes.cl"
+#include "masks/lanes.cl"
 
 #define ITEM_KERNEL kernel __attribute__((reqd_work_group_size(1, 1, 1)))
-#define INLINE __attribute__((always_inline)) static inline
-#define LANE ((int16)(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15))
 typedef struct __attribute__((packed)) {
   ushort16 v;
 } any_ushort16;
@@ -21,29 +18,6 @@ INLINE bool some_of(int16 lanes) {
   const int4 b = a.lo | a.hi;
   const long2 c = as_long2(b);
   return ((c.x | c.y) & (long)0x8000000080000000l) != 0;
-}
-// Stores the first ones of 16 values.
-__attribute__((noinline)) static void store_some(const uchar* values, global uchar* out, int bytes) {
-  for (int i = 0; i < bytes; ++i) out[i] = values[i];
-}
-#define STORE_LANES(type, vector, out, lanes)                                                    \
-  do {                                                                                           \
-    if ((lanes) == STRIP) {                                                                      \
-      vstore16(vector, 0, out);                                                                  \
-    } else {                                                                                     \
-      type lane_values[STRIP];                                                                   \
-      vstore16(vector, 0, lane_values);                                                          \
-      store_some((const uchar*)lane_values, (global uchar*)(out), (lanes) * (int)sizeof(type)); \
-    }                                                                                            \
-  } while (0)
-
-// The nearer of the marks at the left and at the right; of two as near the one that comes first in the row. Along a
-// period of `period` columns they may lie beyond its ends.
-INLINE int16 nearer(int16 x, int16 last, int16 next, int period) {
-  if (period == 0) return select(next, last, x * 2 <= last + next);
-  const int16 a = last + select((int16)0, (int16)period, last < 0);
-  const int16 b = next - select((int16)0, (int16)period, next >= (int16)period);
-  return select(b, a, (x * 2 < last + next) | ((x * 2 == last + next) & (a <= b)));
 }
 
 // The place of the highest bit of 16 that is set, by the exponent of a float.

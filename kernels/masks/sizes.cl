@@ -40,6 +40,11 @@
 #define VECTORS_OF_KEYS(longest) (KEYS_OF_LINE(longest) + (longest))
 #define VECTORS_OF_INTS(longest) (CARRIED_BY_LINE(longest) + (longest) + INTS_OF_LINE(longest) / STRIP + 1)
 
+// In the group shape: places of a line that a work-group takes, a BAND. The most items that sum counts.
+#define BAND 64
+#define BANDS_OF(size) (((size) + BAND - 1) / BAND)
+#define MOST_SUMMING 256
+
 // What a transform writes, a bit each.
 #define WANTS_SQUARES 1
 #define WANTS_FLOATS 2
@@ -62,7 +67,7 @@ typedef long cl_long;
 typedef float cl_float;
 #endif
 typedef struct {
-  cl_long square_x, square_y;
+  cl_long square_x, square_y, square_z;
   cl_long limit_y, limit_z;            // of distances in keys
   cl_long length_x, length_y, length_z;  // of a pixel: the bits of doubles
   cl_long farthest;                    // squared; a mark that is farther is none

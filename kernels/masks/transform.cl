@@ -3,6 +3,8 @@
 // A row's nearest marks follow from its bits (rows.cl), those of the rows of a strip from these (lines.cl), those of
 // the slices from those. Each item has working memory of its own and takes its share of slices, strips or rows.
 
+#include "masks/lines.cl"
+#include "masks/marking.cl"
 #include "masks/targets.cl"
 
 #define ITEM (int)get_global_id(0)

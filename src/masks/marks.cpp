@@ -62,7 +62,9 @@ ImageShape::ImageShape(const Grid& grid)
 
 Kernel& mask_kernel(KernelSet& kernels, const Device& device, const char* name,
                     const KernelOptions& options) {
-  return kernels.get(device, "masks/transform.cl", name, PixelGrid(1, 1), options);
+  const bool in_groups = device.tuning().shape == Shape::group;
+  return kernels.get(device, in_groups ? "masks/group/transform.cl" : "masks/transform.cl", name,
+                     PixelGrid(1, 1), options);
 }
 
 std::size_t Marks::shorts_of_row() const { return static_cast<std::size_t>(SHORTS_OF_ROW(shape.width)); }
@@ -75,16 +77,25 @@ void Marks::make_room() {
 
 cl::Event Marks::mark(KernelSet& kernels, const cl::Buffer& pixels, PixelType type, Marked marked) {
   make_room();
-  const bool has_sign = type == PixelType::float32 || type == PixelType::float64;
-  cl::Event first =
-      mask_kernel(kernels, device, "mark_pixels")
-          .in_groups_of(1)
-          .over_items(std::min(items_of(device), shape.rows()), pixels, static_cast<cl_int>(bytes_of(type)),
-                      cl_int{has_sign}, cl_uint{marked == Marked::zeros ? 0u : 0xffffu}, shape.width,
-                      static_cast<cl_int>(shape.rows()), bits, counts);
+  const bool has_sign = type == PixelType::float32 || type == PixelType::float64,
+             in_groups = device.tuning().shape == Shape::group;
+  const auto mark_by = [&](Kernel& kernel, std::size_t items) {
+    return kernel.over_items(items, pixels, static_cast<cl_int>(bytes_of(type)), cl_int{has_sign},
+                             cl_uint{marked == Marked::zeros ? 0u : 0xffffu}, shape.width,
+                             static_cast<cl_int>(shape.rows()), bits, counts);
+  };
+  cl::Event first;
+  if (in_groups) {
+    first = fill(device, counts, cl_uint{0}, shape.rows());
+    mark_by(mask_kernel(kernels, device, "mark_words"), shape.rows() * shorts_of_row());
+  } else {
+    first = mark_by(mask_kernel(kernels, device, "mark_pixels").in_groups_of(1),
+                    std::min(items_of(device), shape.rows()));
+  }
+  const std::size_t summing = in_groups ? device.tuning().patch_items : 1;
   mask_kernel(kernels, device, "sum_counts")
-      .in_groups_of(1)
-      .over_items(1, counts, static_cast<cl_int>(shape.rows()));
+      .in_groups_of(summing)
+      .over_items(summing, counts, static_cast<cl_int>(shape.rows()));
   return first;
 }
 

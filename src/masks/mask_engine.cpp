@@ -75,9 +75,11 @@ MaskEngine::MaskEngine(const Device& device, const ImageShape& shape, const Pixe
   };
   const auto [x, y, z] = whole.squares;
   most_in_slice_ = most_square(shape.width, x) + most_square(shape.height, y);
+  most_ = most_in_slice_ + most_square(shape.depth, z);
+  if (device.tuning().shape == Shape::group) return;
   along_y_ = make_pass(shape.height, y, most_in_slice_, std::max(x, y));
   if (shape.depth > 1) {
-    along_z_ = make_pass(shape.depth, z, most_in_slice_ + most_square(shape.depth, z), std::max({x, y, z}));
+    along_z_ = make_pass(shape.depth, z, most_, std::max({x, y, z}));
   }
 }
 
@@ -113,6 +115,7 @@ cl::Buffer MaskEngine::images_of(const NearestTargets& targets, int carried, boo
   images_t images = {};
   images.square_x = whole_.squares[0];
   images.square_y = whole_.squares[1];
+  images.square_z = whole_.squares[2];
   images.limit_y = is_far ? along_y_.far_limit : along_y_.limit;
   images.limit_z = is_far ? along_z_.far_limit : along_z_.limit;
   images.length_x = bits_of(size_.x);
@@ -162,8 +165,46 @@ Commands MaskEngine::run_pass(KernelSet& kernels, const Pass& pass, const char* 
   return {first, last};
 }
 
+template <typename... Arguments>
+cl::Event MaskEngine::run_last(Kernel& kernel, std::size_t count, const NearestTargets& targets,
+                               const Marks& marks, const Arguments&... arguments) const {
+  return kernel.over_items(count, arguments..., given(targets.distances), given(targets.indices),
+                           given(targets.places), given(targets.ranks), given(marks.starts),
+                           given(targets.values), given(targets.image), given(targets.labels));
+}
+
+Commands MaskEngine::run_in_groups(KernelSet& kernels, const Marks& marks, const NearestTargets& targets,
+                                   MaskWorkspace& room, WorkingMemory& memory) {
+  const std::size_t pixels = shape_.pixels(), items = device_.tuning().patch_items;
+  memory.reserve(room.columns, pixels * sizeof(cl_ushort));
+  memory.reserve(room.between, pixels * word);
+  const cl::Buffer images = images_of(targets, carried_for(targets), false);
+  const bool is_far = most_ >= std::numeric_limits<cl_uint>::max();
+  const auto kernel = [&](const char* name) -> Kernel& {
+    return mask_kernel(kernels, device_, name,
+                       {metric_, Neighbourhood::moore, is_far ? Extent::far : Extent::grid});
+  };
+  const auto along = [&](const char* ends, const char* others, int size, const auto&... buffers) {
+    const auto width = static_cast<std::size_t>(shape_.width),
+               lines = pixels / static_cast<std::size_t>(size);
+    const std::size_t bands = static_cast<std::size_t>(BANDS_OF(size));
+    kernel(ends).over_items(bands * lines, images, buffers...);
+    kernel(others).in_groups_of(items).over_items(bands * (lines / width) * STRIPS_OF(width) * items, images,
+                                                  buffers...);
+  };
+  const cl::Event first =
+      kernel("nearest_columns").over_items(pixels, images, marks.bits, marks.counts, room.columns);
+  along("end_bands_along_y", "fill_bands_along_y", shape_.height, room.columns, room.between);
+  // What rows have is needed no longer: there is room for slices.
+  if (shape_.depth > 1)
+    along("end_bands_along_z", "fill_bands_along_z", shape_.depth, room.between, room.columns);
+  return {first, run_last(kernel("store_targets"), pixels, targets, marks, images, room.between, room.columns,
+                          marks.bits)};
+}
+
 Commands MaskEngine::run(KernelSet& kernels, const Marks& marks, const NearestTargets& targets,
                          MaskWorkspace& room, WorkingMemory& memory) {
+  if (device_.tuning().shape == Shape::group) return run_in_groups(kernels, marks, targets, room, memory);
   const auto width = static_cast<std::size_t>(shape_.width), height = static_cast<std::size_t>(shape_.height);
   const auto depth = static_cast<std::size_t>(shape_.depth);
   const std::size_t strips = static_cast<std::size_t>(STRIPS_OF(shape_.width)),
@@ -180,26 +221,17 @@ Commands MaskEngine::run(KernelSet& kernels, const Marks& marks, const NearestTa
   const int carried = carried_for(targets);
   const cl::Buffer near = images_of(targets, carried, false),
                    far = saturates ? images_of(targets, carried, true) : nothing_;
-  const auto given = [&](const cl::Buffer& buffer) -> const cl::Buffer& {
-    return buffer() == nullptr ? nothing_ : buffer;
-  };
-  const auto run_last = [&](std::size_t count, Kernel& kernel, const auto&... arguments) {
-    return kernel.in_groups_of(1).over_items(count, arguments..., given(targets.distances),
-                                             given(targets.indices), given(targets.places),
-                                             given(targets.ranks), given(marks.starts), given(targets.values),
-                                             given(targets.image), given(targets.labels));
-  };
   if (!is_volume) {
     const cl::Event first = mask_kernel(kernels, device_, "nearest_in_rows")
                                 .in_groups_of(1)
                                 .over_items(std::min(items_, height), near, marks.bits, marks.counts,
                                             room.columns, given(targets.labels));
-    const Commands in_strips =
-        run_pass(kernels, along_y_, "nearest_in_strips", room.flags, strips,
-                 [&](Kernel& kernel, const cl::Buffer& costs, bool is_far) {
-                   return run_last(items_of_strips, kernel, is_far ? far : near, costs, room.keys, room.ints,
-                                   room.flags, marks.bits, marks.counts, room.columns);
-                 });
+    const Commands in_strips = run_pass(
+        kernels, along_y_, "nearest_in_strips", room.flags, strips,
+        [&](Kernel& kernel, const cl::Buffer& costs, bool is_far) {
+          return run_last(kernel.in_groups_of(1), items_of_strips, targets, marks, is_far ? far : near, costs,
+                          room.keys, room.ints, room.flags, marks.bits, marks.counts, room.columns);
+        });
     return {first, in_strips.last};
   }
   // What is known in the slices stands in a target until the last pass, if one has room.
@@ -230,12 +262,12 @@ Commands MaskEngine::run(KernelSet& kernels, const Marks& marks, const NearestTa
                                             room.flags, marks.bits, marks.counts, room.columns, room.slices,
                                             between, step, given(targets.labels));
                                       });
-  const Commands along_z =
-      run_pass(kernels, along_z_, "nearest_along_z", room.flags, strips * height,
-               [&](Kernel& kernel, const cl::Buffer& costs, bool is_far) {
-                 return run_last(std::min(items_, height), kernel, is_far ? far : near, costs, room.keys,
-                                 room.ints, room.flags, marks.bits, room.slices, between, step);
-               });
+  const Commands along_z = run_pass(
+      kernels, along_z_, "nearest_along_z", room.flags, strips * height,
+      [&](Kernel& kernel, const cl::Buffer& costs, bool is_far) {
+        return run_last(kernel.in_groups_of(1), std::min(items_, height), targets, marks, is_far ? far : near,
+                        costs, room.keys, room.ints, room.flags, marks.bits, room.slices, between, step);
+      });
   return {in_slices.first, along_z.last};
 }
 

@@ -61,6 +61,18 @@ class MaskEngine {
   Commands run_pass(KernelSet& kernels, const Pass& pass, const char* name, const cl::Buffer& flags,
                     std::size_t strips, Run run);
 
+  /// The buffer, or any in its place.
+  const cl::Buffer& given(const cl::Buffer& buffer) const { return buffer() == nullptr ? nothing_ : buffer; }
+
+  /// Enqueues the last pass, of so many items, with arguments before those that all shapes have.
+  template <typename... Arguments>
+  cl::Event run_last(Kernel& kernel, std::size_t count, const NearestTargets& targets, const Marks& marks,
+                     const Arguments&... arguments) const;
+
+  /// The passes in the group shape (kernels/masks/group/transform.cl).
+  Commands run_in_groups(KernelSet& kernels, const Marks& marks, const NearestTargets& targets,
+                         MaskWorkspace& room, WorkingMemory& memory);
+
   cl::Buffer images_of(const NearestTargets& targets, int carried, bool is_far) const;
 
   Device device_;  // without vectors
@@ -70,7 +82,7 @@ class MaskEngine {
   Metric metric_;
   std::size_t items_;
   Pass along_y_, along_z_;
-  std::int64_t most_in_slice_;  // of squared distances
+  std::int64_t most_in_slice_, most_;  // of squared distances
   cl::Buffer nothing_;
 };
 

@@ -318,7 +318,30 @@ void make_volumes_of_points(const Device& device) {
   }
 }
 
-/// Images of planes and volumes by keys of 32 and of 64 bits, seeds of a mask, and seeds close together.
+void check_transform(const Grid& grid, double length, const std::vector<std::uint8_t>& image,
+                     const std::vector<float>& distances) {
+  const auto width = static_cast<std::size_t>(grid.width()), height = static_cast<std::size_t>(grid.height());
+  const auto way = [](std::size_t a, std::size_t b, std::size_t period) {
+    const std::size_t inside = std::max(a, b) - std::min(a, b);
+    return static_cast<double>(period == 0 ? inside : std::min(inside, period - inside));
+  };
+  for (std::size_t i = 0; i < image.size(); ++i) {
+    double least = std::numeric_limits<double>::infinity();
+    for (std::size_t j = 0; j < image.size(); ++j) {
+      if (image[j] != 0) continue;
+      const double x = length * way(i % width, j % width, grid.x().is_periodic() ? width : 0);
+      const double y =
+          1000 * way(i / width % height, j / width % height, grid.y().is_periodic() ? height : 0);
+      const double z = 1000 * way(i / width / height, j / width / height, 0);
+      least = std::min(least, std::sqrt(x * x + y * y + z * z));
+    }
+    if (std::abs(static_cast<double>(distances[i]) - least) > 1e-6 * least)
+      throw Error("distances are wrong");
+  }
+}
+
+/// Images of planes and volumes with squared distances of 32 and of 64 bits, whose distances are compared
+/// with each pixel's to every mark.
 void transform_images(const Device& device) {
   for (const Grid& grid : {Grid(20, 35), Grid(35, 12, Axes::xy), Grid(18, 9, 6)}) {
     std::vector<std::uint8_t> image(grid.pixels(), 1);
@@ -331,7 +354,16 @@ void transform_images(const Device& device) {
     for (const double length : {1.0, 999.0}) {
       DistanceTransform transform(device, grid, {length, 1000, 1000});
       transform.run({image.data(), PixelType::uint8}, targets);
+      check_transform(grid, length, image, distances);
     }
+  }
+}
+
+/// Seeds of a mask, and seeds close together.
+void label_by_passes(const Device& device) {
+  for (const Grid& grid : {Grid(20, 35), Grid(35, 12, Axes::xy), Grid(18, 9, 6)}) {
+    std::vector<std::uint8_t> image(grid.pixels(), 1);
+    for (std::size_t i = 0; i < image.size(); i += 1 + i % 67) image[i] = 0;
     Diagram diagram(device, grid);
     exact_diagram(Seeds::from_mask(device, grid, image), diagram);
     diagram.wait();
@@ -492,6 +524,7 @@ int main() {
     make_diagrams_of_points(shaped, metric);
     if (!in_groups) make_ring(shaped, metric);
     make_tiles(shaped, metric);
+    transform_images(shaped);
     for (const Grid& grid : {Grid(40, 19), Grid(3, 11), Grid(70, 9, Axes::xy)}) measure(shaped, grid, metric);
   }
   measure_many_cells(device, Grid(13, 9));
@@ -500,7 +533,7 @@ int main() {
   make_volumes_of_points(for_volumes);
   make_volumes(for_volumes, Grid(20, 12, 9));
   make_volumes(for_volumes, Grid(Axis(18).periodic(), Axis(11).periodic().spaced(2), Axis(5).periodic()));
-  transform_images(for_volumes);
+  label_by_passes(for_volumes);
   cut_exact_cells(device);
   label_globe(for_volumes);
   const std::set<std::string> kernels = kernels_in_the_sources(device);

@@ -114,6 +114,28 @@ BOOST_AUTO_TEST_CASE(an_exact_diagram_takes_few_commands_and_reads_nothing) {
   }
 }
 
+BOOST_AUTO_TEST_CASE(a_distance_transform_of_buffers_takes_few_commands_and_reads_nothing) {
+  struct Case {
+    Shape shape;
+    Grid grid;
+    std::size_t commands;
+  };
+  for (const Case& c : {Case{Shape::group, flat, 7}, Case{Shape::group, Grid(256, 128, 128), 9},
+                        Case{Shape::vector, flat, 5}, Case{Shape::vector, Grid(256, 128, 128), 4}}) {
+    const Device device = shaped(c.shape);
+    const cl::Buffer image(device.context(), CL_MEM_READ_WRITE, c.grid.pixels()),
+        distances(device.context(), CL_MEM_READ_WRITE, c.grid.pixels() * sizeof(float));
+    device.queue().enqueueFillBuffer(image, cl_uchar{1}, 0, c.grid.pixels());
+    device.queue().enqueueFillBuffer(image, cl_uchar{0}, 0, 1);
+    DistanceTransform transform(device, c.grid);
+    TransformTargets targets;
+    targets.distances = {distances, PixelType::float32};
+    const Counts counts = counts_of([&] { transform.run({image, PixelType::uint8}, targets); });
+    BOOST_TEST(counts.commands == c.commands);
+    BOOST_TEST(counts.reads == 0u);
+  }
+}
+
 BOOST_AUTO_TEST_CASE(jump_flooding_takes_a_command_per_wave_and_four_more) {
   const Seeds seeds = random_seeds(test_device(), flat, Snap::to_pixels);
   Diagram diagram(test_device(), flat);

@@ -187,6 +187,20 @@ void check_all_images(const Shape3& shape, unsigned rng_seed = 1, const Device& 
   for (const Bytes& image : images_of(shape, rng_seed)) check_against_brute_force(shape, image, {}, device);
 }
 
+/// A device whose kernels work in groups of so many items.
+Device in_groups_of(std::size_t items) {
+  Tuning tuning = test_device().tuning();
+  tuning.shape = Shape::group;
+  tuning.patch_items = items;
+  return test_device().with_tuning(tuning);
+}
+
+Device in_vectors() {
+  Tuning tuning = test_device().tuning();
+  tuning.shape = Shape::vector;
+  return test_device().with_tuning(tuning);
+}
+
 /// A device whose kernels give up comparing 16 lines together at once, as they do where these differ much.
 Device lane_by_lane() { return with_lists(test_device(), ListLength::two_entries); }
 
@@ -273,6 +287,37 @@ BOOST_AUTO_TEST_CASE(long_axes_have_distances_of_any_length) {
   BOOST_TEST(got.doubles[40000 + 16384] == 16384);
   BOOST_TEST(got.places[0] == 40000u);
   BOOST_TEST(got.ranks[70000] == 0u);
+}
+
+BOOST_AUTO_TEST_CASE(groups_have_any_number_of_items) {
+  for (const std::size_t items : {32, 64, 128, 256}) {
+    check_all_images({{37, 150, 1}, {true, items > 64, false}, {3, 2, 1}}, 7, in_groups_of(items));
+    check_all_images({{10, 9, 70}, {false, false, items > 64}, {1, 2, 3}}, 7, in_groups_of(items));
+  }
+}
+
+// Lines of one band and of several, of 64 places each; lengths that are rounded; squared distances of 32 and
+// of 64 bits.
+BOOST_AUTO_TEST_CASE(groups_and_vectors_write_the_same_bits) {
+  const Device groups = in_groups_of(64), vectors = in_vectors();
+  const double third = 1.0 / 3;
+  for (const Shape3& shape :
+       {Shape3{{1, 5000, 1}}, Shape3{{5000, 1, 1}, {true, false, false}}, Shape3{{3, 3, 1000}},
+        Shape3{{64, 64, 1}}, Shape3{{130, 65, 1}, {}, {2, 3, 1}, third},
+        Shape3{{200, 300, 1}, {true, true, false}},
+        Shape3{{40, 67, 129}, {false, true, true}, {1, 3, 2}, third},
+        Shape3{{300, 400, 1}, {}, {999, 1000, 1}, 0.1},
+        Shape3{{90, 5, 70}, {true, false, false}, {7, 1, 2}}}) {
+    for (const Bytes& image : images_of(shape, 11)) {
+      for (const double farthest : {std::numeric_limits<double>::infinity(), 5 * shape.unit}) {
+        const TransformOptions options = {Marked::zeros, farthest};
+        const Results a = run(shape, image, options, groups), b = run(shape, image, options, vectors);
+        BOOST_TEST((a.doubles == b.doubles && a.floats == b.floats), shape);
+        BOOST_TEST((a.indices == b.indices && a.places == b.places && a.ranks == b.ranks), shape);
+        BOOST_TEST((a.values == b.values), shape);
+      }
+    }
+  }
 }
 
 BOOST_AUTO_TEST_CASE(a_farthest_distance_takes_in_what_is_as_far) {

@@ -34,12 +34,13 @@ done
 needs nvidia "$PTXAS" ptxas
 needs intel "$OCLOC" ocloc
 
-# A GPU gets all programs but those of the vector shape of exact diagrams, and of exact diagrams of volumes. Exact cells, masks and
-# great circles are not checked.
+# A GPU gets all programs but those of the vector shape of exact diagrams, and of exact diagrams of volumes. Exact cells and great
+# circles are not checked.
 kernel_files() {
   grep -lE '^ *(VECTOR_KERNEL|kernel) void' kernels/{core,flooding,measures,motion}/*.cl
   echo kernels/exact/group/diagram.cl
   echo kernels/exact/far.cl
+  echo kernels/masks/group/transform.cl
   printf 'kernels/volumes/%s.cl\n' jump_flooding seeds
 }
 
@@ -63,6 +64,7 @@ more_options() { # FILE METRIC
   if [[ $1 == kernels/exact/group/diagram.cl && $2 == EUCLIDEAN ]]; then
     echo '-DVOROCL_FRACTIONS -DVOROCL_WEIGHTED -DVOROCL_PERIODIC_X -DVOROCL_PERIODIC_Y'
   fi
+  if [[ $1 == kernels/masks/* ]]; then echo -DVOROCL_FAR; fi
   if [[ $1 == kernels/measures/* ]]; then echo '-DVOROCL_DIMENSIONS=3 -DVOROCL_PERIODIC_X -DVOROCL_PERIODIC_Y -DVOROCL_PERIODIC_Z'; fi
   if [[ $1 == kernels/volumes/* ]]; then echo '-DVOROCL_PERIODIC_X -DVOROCL_PERIODIC_Y -DVOROCL_PERIODIC_Z'; fi
 }
