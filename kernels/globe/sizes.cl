@@ -5,4 +5,8 @@
 
 #define GLOBE_BLOCK 16  // pixels of a block along each axis
 
+// Of each eight boxes eight of each: x, y and z of the direction in the middle, as of seeds, and as floats those of the
+// axis along the box, half of its length and of its width, and its depth below the middle.
+#define BOX_NUMBERS 9
+
 #endif

@@ -661,6 +661,11 @@ class Diagram(OnDevice):
         truth : {"snapped", "true"}, optional
             Without it, what an exact diagram was made of; "snapped" for all other labels.
         """
+        if self._on_globe:
+            raise BadArgument(
+                "errors are counted in pixels, and great circles have none: vorocl.similarity() compares labels with those of "
+                'vorocl.diagram(points, grid, metric="great-circle")'
+            )
         return DistanceErrors(*self._diagram.errors(None if truth is None else to_truth(truth)))
 
 

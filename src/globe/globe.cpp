@@ -4,7 +4,6 @@
 #include <cmath>
 #include <sstream>
 
-#include "exact_cells/sites.hpp"
 #include "runtime/buffer.hpp"
 #include "runtime/has_doubles.hpp"
 // Last: it defines macros.
@@ -15,7 +14,6 @@ namespace vorocl {
 
 namespace {
 
-constexpr double unit = 2147483647;  // the radius; of numbers of 32 bits the greatest
 constexpr double half_turn = 180, quarter_turn = 90;
 
 struct Turn {
@@ -28,7 +26,7 @@ Turn turn_of(double degrees) {
   return {std::cos(angle), std::sin(angle)};
 }
 
-cl_int rounded(double part) { return static_cast<cl_int>(std::llrint(part * unit)); }
+cl_int rounded(double part) { return static_cast<cl_int>(std::llrint(part * direction_length)); }
 
 cl_int4 direction_of(const Point& point) {
   const Turn east = turn_of(point.x), north = turn_of(point.y);
@@ -76,7 +74,7 @@ std::shared_ptr<const GlobeSeeds> seeds_on_globe(const SeedsFrame& frame) {
   };
   put(seeds.directions, directions);
   put(seeds.places, tree.places);
-  put(seeds.boxes, tree.boxes);
+  put(seeds.boxes, boxes_along(tree));
   put(seeds.levels, tree.levels);
   put(seeds.ids, tree.ids);
   seeds.sites = tree.count();
@@ -100,8 +98,8 @@ GlobePixels::GlobePixels(const Device& device, const Window& window) {
   std::vector<cl_int2> of_rows;
   for (std::int64_t y = 0; y < window.height(); ++y) {
     const Turn turn = turn_at(window.grid().y(), window.y() + y);
-    of_rows.push_back(
-        {{rounded(turn.cosine), rounded(turn.sine * (unit / 0x1p31))}});  // as products are scaled
+    of_rows.push_back({{rounded(turn.cosine),
+                        rounded(turn.sine * (direction_length / 0x1p31))}});  // as products are scaled
   }
   columns = allocate_with(device, of_columns, "the pixels on the globe");
   rows = allocate_with(device, of_rows, "the pixels on the globe");

@@ -2,12 +2,14 @@
 #pragma once
 
 #include "core/seeds_frame.hpp"
+#include "exact_cells/sites.hpp"
 #include "measures/measurement.hpp"
 #include "vorocl/cells.hpp"
 
 namespace vorocl {
 
-constexpr double earth_radius = 6371.0088;  // of the mean sphere, in kilometres
+constexpr double direction_length = 2147483647;  // in whole numbers: the greatest of 32 bits
+constexpr double earth_radius = 6371.0088;       // of the mean sphere, in kilometres
 
 /// The directions of a frame's seeds, and the tree that engines look for them in.
 struct GlobeSeeds {
@@ -16,6 +18,10 @@ struct GlobeSeeds {
   cl_uint sites = 0;
   cl_int top_level = 0;
 };
+
+/// Other boxes of a tree: of each group BOX_NUMBERS times eight numbers, of which the first three are whole
+/// and the others floats.
+std::vector<cl_int> boxes_along(const DirectionSites& tree);
 
 std::shared_ptr<const GlobeSeeds> seeds_on_globe(const SeedsFrame& frame);
 

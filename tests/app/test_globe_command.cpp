@@ -108,8 +108,8 @@ BOOST_AUTO_TEST_CASE(what_is_not_of_the_globe_is_refused) {
   folder.file("far.csv", "lon,lat\n1,2\n3,-91\n");
   const std::string render = "render -o a.png --width 36" + std::string(by),
                     of_points = render + " --points p.csv";
-  for (const std::string option :
-       {"--periodic x", "--domain 0,0,1,1 --periodic x", "--outside count", "--units px", "--margin 5"})
+  for (const std::string option : {"--periodic x", "--domain 0,0,1,1", "--domain 0,0,1,1 --periodic x",
+                                   "--outside count", "--units px", "--margin 5"})
     refuses(folder, of_points + " " + option, usage, {option.substr(0, option.find(' ')), "great-circle"});
   refuses(folder, "render -o a.png --random 5 --size 8x8" + std::string(by), usage, {"--points"});
   refuses(folder, of_points + " --method jfa", usage, {"jfa", "great circles"});
@@ -129,5 +129,6 @@ BOOST_AUTO_TEST_CASE(what_is_not_of_the_globe_is_refused) {
   for (const std::string command :
        {"bench --random 5 --size 8x8", "tiles --random 5 --size 8x8 --labels l.npy",
         "compare l.npy --random 5", "simulate --random 5 --size 8x8 -o a.mp4"})
-    refuses(folder, command + by, usage, {"great-circle", "of render and cells", "euclidean, manhattan"});
+    refuses(folder, command + by, usage,
+            {"great-circle", "of render and cells", "two files", "euclidean, manhattan"});
 }

@@ -78,6 +78,22 @@ std::vector<Point> places_in(double west, double south, double east, double nort
   return places;
 }
 
+/// Random places on a circle so many degrees around 40 E, 30 N.
+std::vector<Point> circle(double reach, std::size_t count) {
+  std::mt19937 rng(17);
+  std::uniform_real_distribution<double> any(0, 360);
+  const double degree = static_cast<double>(radians), along = std::cos(reach * degree),
+               across = std::sin(reach * degree), cosine = std::cos(30 * degree),
+               sine = std::sin(30 * degree);
+  std::vector<Point> places;
+  for (std::size_t i = 0; i < count; ++i) {
+    const double angle = any(rng) * degree, y = across * std::cos(angle), z = across * std::sin(angle);
+    places.push_back({40 + std::atan2(y, along * cosine - z * sine) / degree,
+                      std::asin(along * sine + z * cosine) / degree});
+  }
+  return places;
+}
+
 BOOST_AUTO_TEST_CASE(no_label_is_farther_by_two_centimetres) {
   check_labels("random", map(90, 47), random_places(300, 1));
   check_labels("many", map(64, 32), random_places(1500, 2));
@@ -96,6 +112,19 @@ BOOST_AUTO_TEST_CASE(no_label_is_farther_by_two_centimetres) {
     check_labels("a part at a pole", map(60, 40, 170, 90 - side, 170 + 5 * side, 90),
                  places_in(-180, 90 - side, 180, 90, 200));
   }
+  check_labels("a parallel near a pole", map(36, 18), places_in(-180, 89, 180, 89, 2000));
+  check_labels("a great circle", map(36, 18), circle(90, 2000));
+  check_labels("a circle", map(36, 18), circle(20, 2000));
+  check_labels("a small circle", map(36, 18), circle(0.5, 2000));
+  check_labels("in a circle", map(40, 20, 39.5, 29.5, 40.5, 30.5), circle(1, 2000));
+  check_labels("the equator from a pole", map(40, 20, 0, 89.99, 1, 90), places_in(-180, 0, 180, 0, 2000));
+  check_labels("one place", map(36, 18), std::vector<Point>(3000, {8.5, 47.3}));
+  std::vector<Point> poles = places_in(-180, 90, 180, 90, 1500);
+  for (std::size_t i = 0; i < 1500; ++i) poles.push_back({poles[i].x, -90});
+  check_labels("both poles, often", map(36, 18), poles);
+  std::vector<Point> clusters = places_in(29, 19, 31, 21, 500);
+  for (const Point& point : places_in(-151, -21, -149, -19, 500)) clusters.push_back(point);
+  check_labels("two clusters at antipodes", map(36, 18), clusters);
   check_labels("far from all", map(60, 40, 8, 47, 8.01, 47.01), random_places(3000, 5));
 }
 
@@ -117,16 +146,21 @@ BOOST_AUTO_TEST_CASE(seeds_on_pixels_have_them) {
 
 BOOST_AUTO_TEST_CASE(windows_are_parts_of_the_map) {
   const Grid grid(Axis(90, -180, 180).periodic(), Axis(45, -90, 90).reversed());
-  const std::vector<Point> points = random_places(200, 11);
-  const std::vector<std::uint32_t> all = labels_of(grid, points);
-  for (const Window& window :
-       {Window(grid, 13, 5, 31, 17), Window(grid, 80, 0, 30, 45), Window(grid, -3, 40, 7, 5)}) {
-    const std::vector<std::uint32_t> part = labels_of(window, points);
-    for (std::size_t pixel = 0; pixel < part.size(); ++pixel) {
-      const std::size_t width = static_cast<std::size_t>(window.width());
-      const std::size_t x = (static_cast<std::size_t>(window.x()) + pixel % width) % 90,
-                        y = static_cast<std::size_t>(window.y()) + pixel / width;
-      BOOST_TEST_REQUIRE(part[pixel] == all[y * 90 + x]);
+  // Seeds on circles are nearly equally far, so that a candidate too few would be seen here and in no
+  // distance.
+  const std::vector<Point> equator = places_in(-180, 0, 180, 0, 20000);
+  for (const std::vector<Point>& points :
+       {random_places(200, 11), random_places(20000, 12), equator, circle(90, 20000), circle(20, 20000)}) {
+    const std::vector<std::uint32_t> all = labels_of(grid, points);
+    for (const Window& window :
+         {Window(grid, 13, 5, 31, 17), Window(grid, 80, 0, 30, 45), Window(grid, -3, 40, 7, 5)}) {
+      const std::vector<std::uint32_t> part = labels_of(window, points);
+      for (std::size_t pixel = 0; pixel < part.size(); ++pixel) {
+        const std::size_t width = static_cast<std::size_t>(window.width());
+        const std::size_t x = (static_cast<std::size_t>(window.x() + 90) + pixel % width) % 90,
+                          y = static_cast<std::size_t>(window.y()) + pixel / width;
+        BOOST_TEST_REQUIRE(part[pixel] == all[y * 90 + x]);
+      }
     }
   }
 }

@@ -18,8 +18,10 @@ Option add_metric_option(Command& command, Metric& metric, Globe globe) {
   }
   const auto parse = [metrics, globe](const std::string& text) {
     if (globe == Globe::no && text == of_globe) {
-      throw Error("great-circle, the distance on the globe, is of render and cells; here there are " +
-                  names_of(metrics));
+      throw Error(
+          "great-circle, the distance on the globe, is of render and cells, whose labels compare "
+          "takes as two files; here there are " +
+          names_of(metrics));
     }
     return choose(metrics, text);
   };

@@ -236,12 +236,6 @@ void check_seed_options(const SeedOptions& options, bool needs_size) {
   if (of_volumes != nullptr) {
     throw UsageError(std::string(of_volumes) + " is for volumes: give --size WxHxD");
   }
-  if (options.domain && options.points.empty()) {
-    throw UsageError("--domain is for --points; the domain of a trajectory is its box");
-  }
-  if (options.domain && periodic_axes(options) == Axes::none) {
-    throw UsageError("--domain needs --periodic x, y or xy");
-  }
   if (options.on_globe) {
     const char* const given = options.domain           ? "--domain"
                               : options.periodic       ? "--periodic"
@@ -256,6 +250,12 @@ void check_seed_options(const SeedOptions& options, bool needs_size) {
                       "the globe by themselves and all count: it knows no ") +
           given);
     }
+  }
+  if (options.domain && options.points.empty()) {
+    throw UsageError("--domain is for --points; the domain of a trajectory is its box");
+  }
+  if (options.domain && periodic_axes(options) == Axes::none) {
+    throw UsageError("--domain needs --periodic x, y or xy");
   }
   if (!options.points.empty() || !options.trajectory.empty()) {
     if (options.size || options.width != 0 || !needs_size) return;
