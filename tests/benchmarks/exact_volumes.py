@@ -2,7 +2,7 @@
 """Times exact cells of periodic volumes beside Voro++ (its command), OVITO, freud, pyvoro2 and peclet.voro.
 
 Needs the packages vorocl, ovito, freud-analysis, pyvoro2 and peclet-voro, and the command voro++; those that cannot do a set
-are left out there. Programs are interleaved; the least of some runs by the clock is printed, the least processor time, which
+are left out from there on. Programs are interleaved; the least of some runs by the clock is printed, the least processor time, which
 other work on the machine changes less, and how many cells have as many neighbours as VoroCL's.
 """
 
@@ -43,15 +43,22 @@ def noisy_lattice(count, random):
     return lattice(count, random, 0.02)
 
 
+def weighted(count, random):
+    """Radii of spheres besides, of up to 0.7 spacings."""
+    return np.column_stack([uniform(count, random), random.uniform(0, 0.7 / count ** (1 / 3), count)])
+
+
 def by_vorocl(points):
-    return vorocl.exact_cells(points, (0, 0, 0, 1, 1, 1), periodic=(True, True, True)).cells["neighbours"]
+    weights = points[:, 3] ** 2 if points.shape[1] > 3 else None
+    return vorocl.exact_cells(points[:, :3], (0, 0, 0, 1, 1, 1), periodic=(True,) * 3, weights=weights).cells["neighbours"]
 
 
 def by_voropp(points):
     with tempfile.TemporaryDirectory() as folder:
         path = os.path.join(folder, "points")
-        np.savetxt(path, np.column_stack([np.arange(len(points)), points]), fmt="%d %.17g %.17g %.17g")
-        subprocess.run(["voro++", "-p", "-c", "%i %v %s %F %n", *["0", "1"] * 3, path], check=True)
+        np.savetxt(path, np.column_stack([np.arange(len(points)), points]), fmt="%d" + " %.17g" * points.shape[1])
+        radii = ["-r"] if points.shape[1] > 3 else []
+        subprocess.run(["voro++", *radii, "-p", "-c", "%i %v %s %F %n", *["0", "1"] * 3, path], check=True)
         counts = np.zeros(len(points), int)
         with open(path + ".vol") as table:
             for line in table:
@@ -76,7 +83,8 @@ def by_freud(points):
 
 def by_pyvoro2(points):
     domain = pyvoro2.OrthorhombicCell(((0, 1),) * 3, periodic=(True,) * 3)
-    found = pyvoro2.compute(points, domain=domain, return_vertices=False, return_adjacency=False, output="cells")
+    radii = {"mode": "power", "radii": points[:, 3]} if points.shape[1] > 3 else {}
+    found = pyvoro2.compute(points[:, :3], domain=domain, return_vertices=False, return_adjacency=False, output="cells", **radii)
     counts = np.zeros(len(points), int)
     for cell in found:
         counts[cell["id"]] = len(cell["faces"])
@@ -108,7 +116,7 @@ def processor_time():
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--points", type=int, default=100_000)
-    parser.add_argument("--sets", nargs="+", default=["uniform", "noisy_lattice", "lattice", "clusters"])
+    parser.add_argument("--sets", nargs="+", default=["uniform", "noisy_lattice", "lattice", "clusters", "weighted"])
     parser.add_argument("--without", nargs="*", default=[], help="programs")
     parser.add_argument("--repeat", type=int, default=3)
     options = parser.parse_args()

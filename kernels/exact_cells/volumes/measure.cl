@@ -56,7 +56,7 @@ static inline void count_corners(cell_t* cell, int edges) {
 static inline void place_rough(cell_t* cell) {
   EACH_VERTEX(v, cell->alive) {
     const double far = norm_of((double3)(cell->x[v], cell->y[v], cell->z[v]));
-    if (!(cell->error[v] <= 0x1p-43 * far)) place_exactly(cell, v);
+    if (!(cell->error[v] <= 0x1p-42 * far)) place_exactly(cell, v);
   }
 }
 
