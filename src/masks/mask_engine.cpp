@@ -68,7 +68,6 @@ MaskEngine::MaskEngine(const Device& device, const ImageShape& shape, const Pixe
       size_(size),
       whole_(whole),
       metric_(metric),
-      items_(items_of(device)),
       nothing_(allocate(device, word, "the mask engine")) {
   const auto most_square = [](int side, std::int64_t square) {
     return std::int64_t{side - 1} * (side - 1) * square;
@@ -210,11 +209,17 @@ Commands MaskEngine::run(KernelSet& kernels, const Marks& marks, const NearestTa
   const std::size_t strips = static_cast<std::size_t>(STRIPS_OF(shape_.width)),
                     longest = std::max(height, depth);
   const bool is_volume = depth > 1, saturates = along_y_.saturates || along_z_.saturates;
-  const std::size_t items_of_slices = std::min(items_, depth), items_of_strips = std::min(items_, strips);
-  const std::size_t items = std::min(items_, is_volume ? longest : strips);
-  const std::size_t bytes_of_keys = STRIP * (saturates ? sizeof(cl_long) : sizeof(cl_uint));
-  memory.reserve(room.keys, items * VECTORS_OF_KEYS(longest) * bytes_of_keys);
-  memory.reserve(room.ints, items * VECTORS_OF_INTS(longest) * bytes_of_ints);
+  // All work-items together have a byte per pixel to work in, or there is one for each unit.
+  const std::size_t keys_of_item =
+      VECTORS_OF_KEYS(longest) * STRIP * (saturates ? sizeof(cl_long) : sizeof(cl_uint));
+  const std::size_t ints_of_item = VECTORS_OF_INTS(longest) * bytes_of_ints;
+  const std::size_t most_items =
+      std::clamp(shape_.pixels() / (keys_of_item + ints_of_item), units_of(device_), items_of(device_));
+  const std::size_t items_of_slices = std::min(most_items, depth),
+                    items_of_strips = std::min(most_items, strips);
+  const std::size_t items = std::min(most_items, is_volume ? longest : strips);
+  memory.reserve(room.keys, items * keys_of_item);
+  memory.reserve(room.ints, items * ints_of_item);
   memory.reserve(room.flags, strips * (is_volume ? longest : 1));
   const std::size_t of_columns = strips * SHORTS_OF_STRIP(height) * sizeof(cl_ushort);
   memory.reserve(room.columns, of_columns * (is_volume ? items_of_slices : 1));
@@ -224,7 +229,7 @@ Commands MaskEngine::run(KernelSet& kernels, const Marks& marks, const NearestTa
   if (!is_volume) {
     const cl::Event first = mask_kernel(kernels, device_, "nearest_in_rows")
                                 .in_groups_of(1)
-                                .over_items(std::min(items_, height), near, marks.bits, marks.counts,
+                                .over_items(std::min(most_items, height), near, marks.bits, marks.counts,
                                             room.columns, given(targets.labels));
     const Commands in_strips = run_pass(
         kernels, along_y_, "nearest_in_strips", room.flags, strips,
@@ -262,12 +267,13 @@ Commands MaskEngine::run(KernelSet& kernels, const Marks& marks, const NearestTa
                                             room.flags, marks.bits, marks.counts, room.columns, room.slices,
                                             between, step, given(targets.labels));
                                       });
-  const Commands along_z = run_pass(
-      kernels, along_z_, "nearest_along_z", room.flags, strips * height,
-      [&](Kernel& kernel, const cl::Buffer& costs, bool is_far) {
-        return run_last(kernel.in_groups_of(1), std::min(items_, height), targets, marks, is_far ? far : near,
-                        costs, room.keys, room.ints, room.flags, marks.bits, room.slices, between, step);
-      });
+  const Commands along_z =
+      run_pass(kernels, along_z_, "nearest_along_z", room.flags, strips * height,
+               [&](Kernel& kernel, const cl::Buffer& costs, bool is_far) {
+                 return run_last(kernel.in_groups_of(1), std::min(most_items, height), targets, marks,
+                                 is_far ? far : near, costs, room.keys, room.ints, room.flags, marks.bits,
+                                 room.slices, between, step);
+               });
   return {in_slices.first, along_z.last};
 }
 

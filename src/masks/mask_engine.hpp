@@ -80,7 +80,6 @@ class MaskEngine {
   PixelSize size_;
   WholeSizes whole_;
   Metric metric_;
-  std::size_t items_;
   Pass along_y_, along_z_;
   std::int64_t most_in_slice_, most_;  // of squared distances
   cl::Buffer nothing_;

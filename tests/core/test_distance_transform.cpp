@@ -11,6 +11,8 @@
 #include "brute_force.hpp"
 #include "fixture.hpp"
 #include "list_length.hpp"
+#include "masks/items.hpp"
+#include "masks/mask_engine.hpp"
 #include "vorocl/distance_transform.hpp"
 
 using namespace vorocl;
@@ -485,6 +487,28 @@ BOOST_AUTO_TEST_CASE(bad_arguments_are_named) {
 
 // Seeds of masks by both metrics, whose diagrams this engine makes where the exact engine has the vector
 // shape.
+BOOST_AUTO_TEST_CASE(work_items_have_a_byte_per_pixel_or_there_is_one_for_each_unit) {
+  // Each one remembers a column.
+  const Grid grid(512, 16384);
+  const Device device = test_device();
+  const ImageShape shape(grid);
+  MaskEngine engine(device, shape, {}, whole_sizes({}, grid.height()));
+  Marks marks(device, shape);
+  NearestTargets targets;
+  targets.distances = cl::Buffer(device.context(), CL_MEM_READ_WRITE, shape.pixels() * sizeof(float));
+  KernelSet kernels;
+  const cl::Buffer zeros(device.context(), CL_MEM_READ_WRITE, shape.pixels());
+  marks.mark(kernels, zeros, PixelType::uint8, Marked::zeros);
+  MaskWorkspace room;
+  WorkingMemory memory(device, "a test", 0);
+  engine.run(kernels, marks, targets, room, memory);
+  device.finish();
+  if (device.tuning().shape == Shape::group) return;  // which has no such memory
+  constexpr std::size_t most_of_column = 600;         // per pixel
+  BOOST_TEST(room.keys.getInfo<CL_MEM_SIZE>() + room.ints.getInfo<CL_MEM_SIZE>() <=
+             std::max(shape.pixels(), units_of(device) * most_of_column * 16384));
+}
+
 BOOST_AUTO_TEST_CASE(exact_diagrams_of_masks_have_the_labels_of_their_pixels_as_seeds) {
   for (const Grid& grid :
        {Grid(67, 41), Grid(35, 30, Axes::x), Grid(19, 44, Axes::y), Grid(33, 40, Axes::xy)}) {
