@@ -321,6 +321,27 @@ def test_results_go_into_arrays_of_the_caller():
             assert np.array_equal(distances, expected) and np.array_equal(indices, places)
 
 
+@pytest.mark.parametrize("shape", [(30,), (20, 31), (1, 9, 8), (6, 7, 8)])
+@pytest.mark.parametrize("sampling", [None, 0.3])
+def test_distances_may_be_float32(shape, sampling):
+    mask = rng.random(shape) > 0.02
+    mask.flat[3] = False
+    expected = vorocl.distance_transform_edt(mask, sampling)
+    found = vorocl.distance_transform_edt(mask, sampling, float64_distances=False)
+    assert found.dtype == np.float32
+    assert np.array_equal(found, expected.astype(np.float32))
+    given = np.zeros(shape[::-1], np.float32).T
+    assert vorocl.distance_transform_edt(mask, sampling, distances=given, float64_distances=False) is None
+    assert np.array_equal(given, found)
+
+
+def test_masked_arrays_are_what_they_hold():
+    mask = rng.random((20, 30)) > 0.1
+    for dtype in bool, float:
+        image = np.ma.array(mask.astype(dtype), mask=rng.random(mask.shape) < 0.5)
+        assert np.array_equal(vorocl.distance_transform_edt(image), ndimage.distance_transform_edt(image))
+
+
 @pytest.mark.parametrize("shape", [(0,), (0, 5), (3, 0), (2, 0, 4)])
 def test_empty_arrays_have_empty_results(shape):
     image = np.ones(shape, np.int16)

@@ -182,7 +182,7 @@ def unmasked(image: ArrayLike) -> ArrayLike:
 def to_mask(image: ArrayLike, name: str) -> NDArray[Any]:
     """An array with one to three axes, as functions of SciPy's and scikit-image's take it: it may be empty."""
     try:
-        array = np.atleast_1d(image)
+        array = np.atleast_1d(np.asarray(image))
     except ValueError as error:
         raise BadArgument(f"{name} must be an array: {error}") from None
     if array.ndim > 3:

@@ -29,7 +29,7 @@ SLOW = ("SimpleITK", "SciPy", "scikit-image")
 def grid(shape):
     """Coordinates from slow to fast, of which a plane's first is 0 everywhere."""
     axes = np.ogrid[tuple(slice(0, side) for side in shape)]
-    return axes if len(shape) == 3 else [np.zeros((1, 1)), *axes]
+    return axes if len(shape) == 3 else [np.zeros((1, 1), int), *axes]
 
 
 def middle(shape):
@@ -241,6 +241,11 @@ HARD = {
     "random columns": rows_and_columns(False),
     "random rows": rows_and_columns(True),
     "random blocks": blocks,
+    "nested shells": where(lambda z, y, x, shape: np.sqrt(from_middle(shape)).astype(int) % 16 != 0),
+    "thin walls": where(lambda z, y, x, shape: (slow(z, y, shape) % 16 != 0) & (y % 16 != 0) & (x % 16 != 0)),
+    "diagonal walls": where(lambda z, y, x, shape: (z + y + x) % 64 != 0),
+    "Sierpinski": where(lambda z, y, x, shape: ((z & y) | (y & x) | (z & x)) != 0),
+    "outside Sierpinski": where(lambda z, y, x, shape: ((z & y) | (y & x) | (z & x)) == 0),
     "checkerboard of 32": where(lambda z, y, x, shape: (z // 32 + y // 32 + x // 32) % 2 == 0),
 }
 VOLUMES_ALONE = ("helix", "cylinder along y")
@@ -274,10 +279,10 @@ SEEDS = {
 # --- programs ---
 
 
-def transforms_of(mask, indices):
+def transforms_of(mask, indices, doubles):
     """How each program is called on a mask."""
     programs = {
-        "VoroCL": lambda: vorocl.distance_transform_edt(mask, return_indices=indices),
+        "VoroCL": lambda: vorocl.distance_transform_edt(mask, return_indices=indices, float64_distances=doubles),
         "edt": lambda: edt.edt(mask, parallel=1),
         "SciPy": lambda: ndimage.distance_transform_edt(mask, return_indices=indices),
     }
@@ -359,6 +364,8 @@ def same_distances(results, mask):
     """Whether distances are SciPy's bits, else the roots of the squares of edt."""
     ours = results["VoroCL"]
     ours = ours[0] if isinstance(ours, tuple) else ours
+    if ours.dtype == np.float32:
+        return np.allclose(ours, np.sqrt(edt.edtsq(mask, parallel=1), dtype=np.float64), rtol=3e-7, atol=0)
     if "SciPy" in results:
         theirs = results["SciPy"]
         return np.array_equal(ours, theirs[0] if isinstance(theirs, tuple) else theirs)
@@ -385,7 +392,7 @@ def table_of_masks(work, shape, options):
         if (options.masks and name not in options.masks) or (len(shape) == 2 and name in VOLUMES_ALONE):
             continue
         mask = make(shape)
-        programs = expansions_of(mask) if work == "expansion" else transforms_of(mask, work == "indices")
+        programs = expansions_of(mask) if work == "expansion" else transforms_of(mask, work == "indices", not options.float32)
         programs = {p: f for p, f in programs.items() if p == "VoroCL" or p in options.peers}
         if not started:
             against = [peer for peer in programs if peer != "VoroCL"]
@@ -424,6 +431,7 @@ def main():
     parser.add_argument("--shapes", nargs="+", type=shape_of, default=[(256,) * 3, (2048,) * 2], help="as 256x256x256")
     parser.add_argument("--masks", nargs="+", help="these alone, by name")
     parser.add_argument("--hard", action="store_true", help="masks that are made to be hard, too")
+    parser.add_argument("--float32", action="store_true", help="VoroCL's distances are float32, as those of edt")
     parser.add_argument("--peers", nargs="+", default=["edt", "SimpleITK", "SciPy", "OpenCV", "scikit-image"])
     parser.add_argument("--repeat", type=int, default=5, help="rounds")
     parser.add_argument("--slow", type=int, default=1, help="rounds of SimpleITK, SciPy and scikit-image")
