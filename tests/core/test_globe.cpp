@@ -102,6 +102,7 @@ BOOST_AUTO_TEST_CASE(no_label_is_farther_by_two_centimetres) {
   check_labels("the equator", map(72, 36), places_in(-180, 0, 180, 0, 500));
   check_labels("around a pole", map(72, 36), places_in(-180, 89.9, 180, 90, 500));
   check_labels("in a village", map(72, 36), places_in(8.5, 47.3, 8.501, 47.301, 500));
+  check_labels("one", map(60, 30), {{20, 10}});
   check_labels("an antipodal pair", map(60, 30), {{20, 10}, {-160, -10}});
   check_labels("both poles", map(60, 30), {{20, 90}, {-160, -90}});
   check_labels("beyond 180 degrees", map(60, 30), {{190, 10}, {-530, -10}, {359, 50}, {0, -50}});
