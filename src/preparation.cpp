@@ -150,14 +150,12 @@ void prepare_images(const Device& device) {
       transform.run({image.data(), PixelType::uint8}, targets);
     }
     for (const Metric metric : {Metric::euclidean, Metric::manhattan}) {
-      const bool is_not_taken = metric == Metric::manhattan || device.tuning().shape == Shape::group;
-      if (grid.is_volume() && is_not_taken) continue;
+      if (grid.is_volume() && metric == Metric::manhattan) continue;
       Diagram diagram(device, grid);
       exact_diagram(Seeds::from_mask(device, grid, image), diagram, {metric});
       diagram.wait();
     }
   }
-  if (device.tuning().shape == Shape::group) return;
   const Grid thin(4096, 1, 2);
   std::vector<Point> crowded;
   for (int i = 0; i < 100; ++i) {

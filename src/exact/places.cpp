@@ -78,13 +78,11 @@ std::size_t chunks_of(std::size_t seeds) { return seeds < 4096 ? 1 : seeds < 655
 
 }  // namespace
 
-void check_exact_volume(const Filling& filling, const DiagramState& state) {
-  if (filling.metric() != Metric::euclidean) {
-    throw Error("exact diagrams of volumes are Euclidean; jump flooding takes the Manhattan metric");
-  }
+void check_exact_volume(const DiagramState& state) {
   if (state.device.tuning().shape == Shape::group) {
-    throw Error("exact diagrams of volumes are made by CPUs alone, and " + state.device.name() +
-                " is tuned as a GPU: take jump flooding, or a CPU");
+    throw Error(
+        "exact diagrams of volumes are made by CPUs alone, but for masks and dense snapped seeds, and " +
+        state.device.name() + " is tuned as a GPU: take jump flooding, or a CPU");
   }
 }
 

@@ -6,8 +6,8 @@
 
 namespace vorocl {
 
-/// Throws Error for the Manhattan metric, and on devices of the group shape.
-void check_exact_volume(const Filling& filling, const DiagramState& state);
+/// Throws Error on devices of the group shape.
+void check_exact_volume(const DiagramState& state);
 
 /// Labels the diagram by lists of places (kernels/exact). That of a volume was checked.
 Report exact_diagram_by_places(Filling& filling, DiagramState& state);

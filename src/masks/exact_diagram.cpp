@@ -34,12 +34,15 @@ bool shows_marks(const Filling& filling) {
 }  // namespace
 
 bool labels_by_passes(const Filling& filling, const DiagramState& state) {
-  if (state.device.tuning().shape != Shape::vector) return false;
+  // In groups planes take fewer instructions by their index, whatever the seeds (counted).
+  const bool in_groups = state.device.tuning().shape == Shape::group;
+  if (in_groups && !state.grid.is_volume()) return false;
   if (shows_marks(filling)) return true;
   if (filling.takes_places()) return false;
   const Placement& placement = filling.placement();
-  // Of fewer seeds the ways by their index take a shorter time (measured).
-  const std::size_t pixels_per_seed = placement.grid.is_volume()              ? 24
+  // Of fewer seeds the ways by their index take a shorter time (measured), and in groups fewer instructions.
+  const std::size_t pixels_per_seed = in_groups                               ? 128
+                                      : placement.grid.is_volume()            ? 24
                                       : filling.metric() == Metric::euclidean ? 28
                                                                               : 40;
   return placement.is_crowded || filling.seeds().size > placement.grid.pixels() / pixels_per_seed;

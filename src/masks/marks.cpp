@@ -135,6 +135,15 @@ cl::Event Marks::paint(KernelSet& kernels, const PixelGrid& grid, const cl::Buff
                        std::size_t seeds, const cl::Buffer& labels) {
   make_room();
   const PositionBits bits_of_position(grid);
+  if (device.tuning().shape == Shape::group) {
+    const cl::Event first = fill(device, bits, cl_ushort{0}, shape.rows() * shorts_of_row());
+    fill(device, counts, cl_uint{0}, shape.rows());
+    fill(device, labels, ~cl_uint{0}, shape.pixels());
+    mask_kernel(kernels, device, "paint_pixels")
+        .over_items(seeds, positions, static_cast<cl_uint>(seeds), shape.width, shape.height,
+                    bits_of_position.x, bits_of_position.y, bits, counts, labels);
+    return first;
+  }
   return mask_kernel(kernels, device, "paint_seeds")
       .in_groups_of(1)
       .over_items(std::min(painters_of(device), shape.rows()), positions, static_cast<cl_uint>(seeds),

@@ -366,7 +366,11 @@ void label_by_passes(const Device& device) {
     for (std::size_t i = 0; i < image.size(); i += 1 + i % 67) image[i] = 0;
     Diagram diagram(device, grid);
     exact_diagram(Seeds::from_mask(device, grid, image), diagram);
-    diagram.wait();
+    const Labels labels = diagram.read();
+    std::uint32_t rank = 0;
+    for (std::size_t i = 0; i < image.size(); ++i) {
+      if (image[i] != 0 && labels[i] != rank++) throw Error("labels of a mask are wrong");
+    }
   }
   const Grid thin(4096, 1, 2);
   std::vector<Point> crowded;
@@ -375,7 +379,11 @@ void label_by_passes(const Device& device) {
   }
   Diagram diagram(device, thin);
   exact_diagram(Seeds(device, thin, crowded, to_centres), diagram);
-  diagram.wait();
+  const Labels labels = diagram.read();
+  for (std::size_t i = 0; i < labels.size(); ++i) {
+    if (labels[i] != 2 * std::min<std::size_t>(i % 4096, 99) + i / 4096)
+      throw Error("crowded labels are wrong");
+  }
 }
 
 /// In buffers: good points, good ones that have moved, and a bad one.
@@ -525,6 +533,7 @@ int main() {
     if (!in_groups) make_ring(shaped, metric);
     make_tiles(shaped, metric);
     transform_images(shaped);
+    label_by_passes(shaped);
     for (const Grid& grid : {Grid(40, 19), Grid(3, 11), Grid(70, 9, Axes::xy)}) measure(shaped, grid, metric);
   }
   measure_many_cells(device, Grid(13, 9));
@@ -533,7 +542,6 @@ int main() {
   make_volumes_of_points(for_volumes);
   make_volumes(for_volumes, Grid(20, 12, 9));
   make_volumes(for_volumes, Grid(Axis(18).periodic(), Axis(11).periodic().spaced(2), Axis(5).periodic()));
-  label_by_passes(for_volumes);
   cut_exact_cells(device);
   label_globe(for_volumes);
   const std::set<std::string> kernels = kernels_in_the_sources(device);

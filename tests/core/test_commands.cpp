@@ -136,6 +136,27 @@ BOOST_AUTO_TEST_CASE(a_distance_transform_of_buffers_takes_few_commands_and_read
   }
 }
 
+BOOST_AUTO_TEST_CASE(a_dense_volume_takes_few_commands_and_reads_nothing) {
+  const Grid grid(64, 64, 64);
+  const Device device = shaped(Shape::group);
+  std::vector<Point> points;
+  std::vector<std::uint8_t> mask(grid.pixels());
+  for (std::size_t i = 0; i < mask.size(); i += 7) {
+    mask[i] = 1;
+    points.push_back({static_cast<double>(i % 64) + 0.5, static_cast<double>(i / 64 % 64) + 0.5,
+                      static_cast<double>(i / 4096) + 0.5});
+  }
+  const Seeds of_mask = Seeds::from_mask(device, grid, mask),
+              of_points(device, grid, points, {Outside::refuse, Snap::to_pixels});
+  Diagram diagram(device, grid);
+  const Counts masked = counts_of([&] { exact_diagram(of_mask, diagram); }),
+               painted = counts_of([&] { exact_diagram(of_points, diagram); });
+  BOOST_TEST(masked.commands == 6u);
+  BOOST_TEST(masked.reads == 0u);
+  BOOST_TEST(painted.commands == 10u);
+  BOOST_TEST(painted.reads == 0u);
+}
+
 BOOST_AUTO_TEST_CASE(jump_flooding_takes_a_command_per_wave_and_four_more) {
   const Seeds seeds = random_seeds(test_device(), flat, Snap::to_pixels);
   Diagram diagram(test_device(), flat);

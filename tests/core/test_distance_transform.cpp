@@ -534,7 +534,6 @@ BOOST_AUTO_TEST_CASE(exact_diagrams_of_masks_have_the_labels_of_their_pixels_as_
 
 // Of seeds on one voxel the lowest id owns it; one is absent.
 BOOST_AUTO_TEST_CASE(crowded_seeds_of_volumes_have_the_labels_of_their_voxels) {
-  if (test_device().tuning().shape != Shape::vector) return;
   const Grid plain(72, 80, 64),
       spaced(Axis(72).periodic(), Axis(80).spaced(3), Axis(64).spaced(2).periodic());
   for (const Grid& grid : {plain, spaced}) {
@@ -553,11 +552,13 @@ BOOST_AUTO_TEST_CASE(crowded_seeds_of_volumes_have_the_labels_of_their_voxels) {
       ids[place] = std::min(ids[place], id);
     }
     ids.erase(std::remove(ids.begin(), ids.end(), no_label), ids.end());  // by the ranks of the mask
-    Diagram diagram(test_device(), grid), of_mask(test_device(), grid);
-    const Seeds seeds(test_device(), grid, points, {Outside::absent});
+    Diagram diagram(test_device(), grid), of_mask(test_device(), grid), by_vectors(in_vectors(), grid);
+    const Seeds seeds(test_device(), grid, points, {Outside::absent, Snap::to_pixels});
     exact_diagram(seeds, diagram);
     exact_diagram(Seeds::from_mask(test_device(), grid, mask), of_mask);
     Labels expected = of_mask.read();
+    exact_diagram(Seeds::from_mask(in_vectors(), grid, mask), by_vectors);
+    BOOST_TEST(count_differences(by_vectors.read(), expected) == 0u);
     for (std::uint32_t& label : expected) label = ids[label];
     BOOST_TEST(count_differences(diagram.read(), expected) == 0u);
     exact_diagram(seeds, diagram);  // with working memory that is there

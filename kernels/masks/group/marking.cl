@@ -1,4 +1,4 @@
-// Marks are made of images: on GPUs a work-item takes a word.
+// Marks are made of images and of seeds: on GPUs a work-item takes a word or a seed.
 
 #ifndef VOROCL_MASKS_GROUP_MARKING
 #define VOROCL_MASKS_GROUP_MARKING
@@ -20,6 +20,22 @@ kernel void mark_words(global const uchar* restrict pixels, int bytes, int has_s
                                   : marks_of_some(pixels, bytes, is_float, skips_nan, wanted, at, some);
   marks[item] = (ushort)word;
   if (word != 0) atomic_add(counts + row, popcount(word));
+}
+
+// As paint_seeds(), a seed for each work-item. Marks and counts are 0 at first, and labels of pixels with seeds are
+// greater than any id.
+kernel void paint_pixels(global const uint* restrict positions, uint count, int width, int height, int bits_x,
+                         int bits_y, global uint* marks, global uint* counts, global uint* labels) {
+  const uint id = (uint)get_global_id(0);
+  if (id >= count) return;
+  const uint position = positions[id];
+  if (position >= EMPTY_SEED) return;
+  const uint x = position & ((1u << bits_x) - 1), y = position >> bits_x & ((1u << bits_y) - 1);
+  const uint z = bits_x + bits_y < 32 ? position >> (bits_x + bits_y) : 0;
+  const uint row = z * (uint)height + y, bit = 1u << x % 32;
+  atomic_min(labels + ((size_t)row * (size_t)width + x), id);
+  if ((atomic_or(marks + ((size_t)row * (SHORTS_OF_ROW((size_t)width) / 2) + x / 32), bit) & bit) == 0)
+    atomic_inc(counts + row);
 }
 
 #endif
