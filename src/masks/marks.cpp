@@ -136,7 +136,7 @@ cl::Event Marks::paint(KernelSet& kernels, const PixelGrid& grid, const cl::Buff
   make_room();
   const PositionBits bits_of_position(grid);
   if (device.tuning().shape == Shape::group) {
-    const cl::Event first = fill(device, bits, cl_ushort{0}, shape.rows() * shorts_of_row());
+    cl::Event first = fill(device, bits, cl_ushort{0}, shape.rows() * shorts_of_row());
     fill(device, counts, cl_uint{0}, shape.rows());
     fill(device, labels, ~cl_uint{0}, shape.pixels());
     mask_kernel(kernels, device, "paint_pixels")
