@@ -27,27 +27,24 @@ PixelType type_of(const std::string& name) {
   }
 }
 
-ImageTarget target_of_distances(const std::optional<Array<>>& image) {
-  if (!image) return {};
-  return {image->data(), image->dtype() == nb::dtype<float>() ? PixelType::float32 : PixelType::float64};
-}
-
 template <typename T>
 ImageTarget target(const std::optional<Array<T>>& image, PixelType type) {
   return image ? ImageTarget(image->data(), type) : ImageTarget();
 }
 
-/// The image and its values are the bytes of numbers, the distances floats or doubles. The arrays have the
-/// grid's shape, the indices one axis more: Python has seen to it.
+/// The image, its values and the distances, which are floats or doubles, are the bytes of numbers. The arrays
+/// have the grid's shape, the indices one axis more: Python has seen to it.
 bool transform(const Device& device, const Grid& grid, const std::tuple<double, double, double>& size,
                const Array<const std::uint8_t>& image, const std::string& type, bool zeros, double farthest,
-               const std::optional<Array<>>& distances, const std::optional<Array<std::int32_t>>& indices,
+               const std::optional<Array<std::uint8_t>>& distances,
+               const std::optional<Array<std::int32_t>>& indices,
                const std::optional<Array<std::uint32_t>>& ranks,
                const std::optional<Array<std::uint8_t>>& values) {
   const auto [x, y, z] = size;
   DistanceTransform transform(device, grid, {x, y, z});
   TransformTargets targets;
-  targets.distances = target_of_distances(distances);
+  const bool are_floats = distances && distances->size() == grid.pixels() * sizeof(float);
+  targets.distances = target(distances, are_floats ? PixelType::float32 : PixelType::float64);
   targets.indices = target(indices, PixelType::uint32);
   targets.ranks = target(ranks, PixelType::uint32);
   targets.values = target(values, type_of(type));

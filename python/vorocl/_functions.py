@@ -214,8 +214,9 @@ def _transform(
     z, y, x = (1.0,) * (3 - pixels.ndim) + tuple(sizes or (1.0,) * pixels.ndim)
     grid = Grid(shape, periodic=periodic)._of("count")
     image, dtype = pixels.view(np.uint8), pixels.dtype.str[1:]
+    floats = None if distances is None else distances.view(np.uint8)
     return _vorocl.transform(
-        to_device(device)._device, grid, (x, y, z), image, dtype, marks_zeros, farthest, distances, indices, ranks, values
+        to_device(device)._device, grid, (x, y, z), image, dtype, marks_zeros, farthest, floats, indices, ranks, values
     )
 
 
