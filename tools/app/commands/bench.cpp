@@ -11,7 +11,6 @@
 #include "app/options/option_groups.hpp"
 #include "app/outputs/measures.hpp"
 #include "app/sources/bounds.hpp"
-#include "app/sources/volume_input.hpp"
 #include "app/terminal/console.hpp"
 #include "app/terminal/end_of_run.hpp"
 #include "app/terminal/selected_device.hpp"

@@ -12,8 +12,6 @@
 #include "app/options/option_groups.hpp"
 #include "app/outputs/exact_cell_files.hpp"
 #include "app/outputs/measures.hpp"
-#include "app/sources/exact_input.hpp"
-#include "app/sources/volume_input.hpp"
 #include "app/terminal/console.hpp"
 #include "app/terminal/end_of_run.hpp"
 #include "app/terminal/selected_device.hpp"
@@ -163,7 +161,7 @@ void run_exact(const Command& command, const CellsOptions& options) {
   }
 
   std::vector<RequestedOutput> outputs = open_outputs(options.requests(), options.seeds);
-  Input input = read_exact_input(options.seeds);
+  Input input = read_input(options.seeds);
   for (RequestedOutput& output : outputs)
     output.request = of_exact_cells(output.request, input.view.is_volume());
   const Device device = select_device(options.device);
@@ -235,6 +233,7 @@ void add_cells(CommandLine& line) {
     std::vector<std::string> paths;
     for (const FileRequest& request : options->requests()) paths.push_back(request.path);
     check_crs(options->seeds, paths);
+    options->seeds.is_exact = options->exact;
     if (options->exact) return run_exact(command, *options);
     if (options->is_volume()) {
       if (command.has("--border")) refuse_in_volumes("--border");

@@ -10,7 +10,6 @@
 #include "app/commands/volume.hpp"
 #include "app/options/option_groups.hpp"
 #include "app/outputs/measures.hpp"
-#include "app/sources/volume_input.hpp"
 #include "app/terminal/console.hpp"
 #include "app/terminal/end_of_run.hpp"
 #include "app/terminal/selected_device.hpp"

@@ -6,14 +6,9 @@
 #include <optional>
 
 #include "app/commands/commands.hpp"
-#include "app/commands/exact_frames.hpp"
 #include "app/commands/simulate_course.hpp"
 #include "app/commands/volume.hpp"
 #include "app/options/option_groups.hpp"
-#include "app/sources/volume_input.hpp"
-#include "app/terminal/console.hpp"
-#include "app/terminal/end_of_run.hpp"
-#include "app/terminal/progress.hpp"
 #include "app/terminal/selected_device.hpp"
 #include "formats/files.hpp"
 #include "formats/values.hpp"
@@ -37,11 +32,9 @@ std::optional<double> parse_tolerance(const std::string& text) {
 /// A run: its frames, one after the other.
 class Run {
  public:
-  Run(const SimulateOptions& options, MovingSeeds& source, const Device& device,
-      const Interruption& interruption, FrameWriter& writer)
+  Run(const SimulateOptions& options, MovingSeeds& source, const Device& device, FrameWriter& writer)
       : options_(options),
         source_(source),
-        interruption_(interruption),
         writer_(writer),
         simulation_(source.frame().place(device), source.frame().view.window,
                     [this](Seeds& moving, Window& window, int) {
@@ -68,76 +61,15 @@ class Run {
                                       source_.frame().ids, source_.frame().view, buffers_);
   }
 
-  /// Goes through the frames before the first one. A method that goes on from the last labels makes them
-  /// anew, because what it knows of them besides the labels is in no file. Throws Error if there are fewer.
-  void pass_frames() {
-    const int first = options_.motion.frames.first;
-    const bool makes_all =
+  /// A frame before the first one. A method that goes on from the last labels makes it anew, because what it
+  /// knows of them besides the labels is in no file.
+  void pass_frame(int frame) {
+    const bool needs_diagram = writer_.needs_diagram(frame, options_.motion.frames.first);
+    const bool continues =
         options_.method.continues || (options_.compare_with && options_.compare_with->continues);
-    Progress progress;
-    for (int frame = 0; frame < first; ++frame) {
-      if (frame > 0) require_next(frame);
-      const bool needs_diagram = writer_.needs_diagram(frame, first);
-      makes_all || needs_diagram ? make_diagrams() : simulation_.skip();
-      const std::shared_ptr<Measures> measures = needs_diagram ? this->measures() : nullptr;
-      writer_.pass(facts(), measures.get());
-      progress.show(frame + 1, source_.done());
-      if (interruption_.came()) throw Error("interrupted, before the first frame was made");
-    }
-    if (first > 0) require_next(first);
-  }
-
-  /// The frames of the run: all, or those before a signal or an error.
-  void make_frames() {
-    Progress progress;
-    try {
-      for (bool more = true; more; more = source_.next()) {
-        add_frame();
-        progress.show(simulation_.frame() + 1, source_.done());
-        if (interruption_.came()) {
-          course_.trouble.text = "interrupted";
-          break;
-        }
-      }
-    } catch (
-        const std::exception& error) {  // ours, or out of memory, or OpenCV's: the frames so far are kept
-      course_.trouble = Trouble(error);
-    }
-    try {
-      writer_.wait();
-    } catch (const std::exception& error) {  // of a frame before
-      course_.trouble = Trouble(error);
-    }
-    course_.frames = writer_.complete();
-  }
-
- private:
-  /// Its kernels are built before: this must not count as time of the first frames.
-  void add_engine(const Method& method, const MethodOptions& options) {
-    const Seeds& seeds = simulation_.seeds();
-    prepare(method, seeds.device(), source_.frame().view.window, seeds.size(), options,
-            options_.seeds.snapping());
-    simulation_.add_engine([this, run = method.run, options](const Seeds& of, Diagram& diagram) {
-      MethodOptions known = options;
-      known.max_displacement = displacement_;  // which a box may make less than the seeds know
-      return run(of, diagram, known);
-    });
-  }
-
-  void require_next(int frame) {
-    if (!source_.next())
-      throw Error(fmt::format("{}: there is no frame {}, only {}", options_.seeds.trajectory,
-                              options_.motion.frames.first, counted(frame, "frame")));
-  }
-
-  /// Makes the diagrams of the next frame.
-  void make_diagrams() {
-    simulation_.step();
-    if (simulation_.frame() == 0) return;
-    ++course_.timed;
-    if (options_.method.continues) {
-      course_.plans.add(simulation_.report(main_engine), displacement_, source_.frame().view.window);
-    }
+    continues || needs_diagram ? make_diagrams() : simulation_.skip();
+    const std::shared_ptr<Measures> measures = needs_diagram ? this->measures() : nullptr;
+    writer_.pass(facts(), measures.get());
   }
 
   /// Makes the next frame, and has it written.
@@ -155,6 +87,29 @@ class Run {
     if (frame % most_frames_ahead == 0) {
       simulation_.milliseconds(main_engine);  // waits, and forgets the events of these frames
       if (options_.compare_with) simulation_.milliseconds(other_engine);
+    }
+  }
+
+ private:
+  /// Its kernels are built before: this must not count as time of the first frames.
+  void add_engine(const Method& method, const MethodOptions& options) {
+    const Seeds& seeds = simulation_.seeds();
+    prepare(method, seeds.device(), source_.frame().view.window, seeds.size(), options,
+            options_.seeds.snapping());
+    simulation_.add_engine([this, run = method.run, options](const Seeds& of, Diagram& diagram) {
+      MethodOptions known = options;
+      known.max_displacement = displacement_;  // which a box may make less than the seeds know
+      return run(of, diagram, known);
+    });
+  }
+
+  /// Makes the diagrams of the next frame.
+  void make_diagrams() {
+    simulation_.step();
+    if (simulation_.frame() == 0) return;
+    ++course_.timed;
+    if (options_.method.continues) {
+      course_.plans.add(simulation_.report(main_engine), displacement_, source_.frame().view.window);
     }
   }
 
@@ -196,7 +151,6 @@ class Run {
 
   const SimulateOptions& options_;
   MovingSeeds& source_;
-  const Interruption& interruption_;
   FrameWriter& writer_;
   std::optional<double> displacement_;  // of the last motion
   Simulation simulation_;
@@ -219,13 +173,12 @@ void run(const SimulateOptions& options) {
                      slice ? size_of_slice(view.window.grid(), *slice) : view.picture.size);
   const Device device = select_device(options.device);
   const FinishAtEnd finish(device);
-  Run run(options, *source, device, interruption, writer);
-  run.pass_frames();
-  run.make_frames();
-  const Course& course = run.course();
-  writer.end_run(course.trouble, options.motion.frames);
+  Run run(options, *source, device, writer);
+  pass_frames(options, *source, interruption, [&](int frame) { run.pass_frame(frame); });
+  const Trouble trouble = make_frames(options, *source, interruption, writer, [&](int) { run.add_frame(); });
+  writer.end_run(trouble, options.motion.frames);
   note_of_last(options.seeds.trajectory, options.motion.frames, run.simulation().frame());
-  print_result(options, *source, run.simulation(), course, *run.measures());
+  print_result(options, *source, run.simulation(), run.course(), *run.measures());
 }
 
 /// Points that something floods are snapped. Throws UsageError if they must not be.
@@ -261,7 +214,7 @@ void prepare_planes(SimulateOptions& options) {
 }
 
 /// The cells of a trajectory without diagrams. Throws UsageError for options that say something of one.
-void run_exact(const Command& command, const SimulateOptions& options) {
+void run_exact(const Command& command, SimulateOptions& options) {
   const std::string others =
       command.given({"--exact", "--trajectory", "--frames", "--cells", "--cell-columns", "--adjacency",
                      "--polygons", "--every", "--bounds", "--y-up", "--y-down", "--periodic", "--outside",
@@ -272,11 +225,9 @@ void run_exact(const Command& command, const SimulateOptions& options) {
                      "diagrams");
   }
   if (options.seeds.trajectory.empty()) throw UsageError("--exact requires --trajectory");
-  ExactFramesOptions exact = {options.seeds, options.device, options.output, options.motion.frames,
-                              options.json};
-  const std::vector<FileRequest>& files = options.output.files;
-  exact.output.files = {files.at(1), files.at(2), options.polygons};
-  run_exact_frames(exact);
+  options.seeds.is_exact = true;
+  options.output.files = {options.output.files.at(1), options.output.files.at(2), options.polygons};
+  run_exact_frames(options);
 }
 
 }  // namespace

@@ -1,7 +1,6 @@
 #include "app/outputs/diagram_files.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -26,193 +25,103 @@ void write_label_file(const OutputFile& file, Measures& measures) {
   write_labels(file, measures.view().picture, measures.labels_in_picture());
 }
 
-/// A cell as its row in a table: pixels of the picture, or voxels, in the view's units. What a cell without
-/// pixels does not have is unknown.
-class CellRow {
- public:
-  CellRow(Measures& measures, std::uint32_t label)
-      : measures_(measures), view_(measures.view()), label_(label) {}
+constexpr CellPart all_parts[] = {of_seed, of_sums, of_pixels, of_shape, of_perimeter, of_neighbours};
 
-  double id() const { return measures_.id_of(label_); }
-  double x() const { return is_on_globe() ? of_globe().seed.x : x_at(measures_.seeds()[label_]->x); }
-  double y() const { return is_on_globe() ? of_globe().seed.y : y_at(measures_.seeds()[label_]->y); }
-  double z() const { return z_at(measures_.seeds()[label_]->z); }
-  double area() const {
-    return is_on_globe() ? of_globe().area : view_.units.area(measures_.pixels()[label_]);
+/// A cell of a diagram. On the globe the library measures it.
+CellValues values_of(Measures& measures, std::uint32_t label, unsigned parts) {
+  const View& view = measures.view();
+  const bool is_full = measures.pixels()[label] > 0;
+  CellValues cell;
+  cell.id = measures.id_of(label);
+  if ((parts & of_perimeter) != 0) cell.perimeter = view.units.border(measures.perimeters()[label]);
+  if ((parts & of_neighbours) != 0) cell.neighbours = measures.neighbours()[label];
+  if (measures.is_on_globe()) {
+    const CellRow& of_globe = measures.on_globe()[label];
+    cell.seed = of_globe.seed;
+    cell.area = of_globe.area;
+    cell.touches_border = of_globe.touches_border ? 1 : 0;
+    if (is_full) cell.centroid = of_globe.centroid;
+    if (is_full) cell.largest_distance = of_globe.largest_distance;
+    return cell;
   }
-  double centroid_x() const { return if_full(is_on_globe() ? of_globe().centroid.x : x_at(centroid().x)); }
-  double centroid_y() const { return if_full(is_on_globe() ? of_globe().centroid.y : y_at(centroid().y)); }
-  double centroid_z() const { return if_full(z_at(centroid().z)); }
-  double left() const { return if_full(x_at(shape().left)); }
-  double top() const { return if_full(y_at(shape().top)); }
-  double front() const { return if_full(z_at(shape().front)); }
-  double right() const { return if_full(view_.units.x_end(static_cast<double>(shape().right) + view_.x)); }
-  double bottom() const { return if_full(view_.units.y_end(static_cast<double>(shape().bottom) + view_.y)); }
-  double back() const { return if_full(view_.units.z_end(shape().back)); }
-  double perimeter() const { return view_.units.border(measures_.perimeters()[label_]); }
-  double neighbours() const { return measures_.neighbours()[label_]; }
-  double largest_distance() const { return if_full(view_.units.length(measures_.largest_distance(label_))); }
-  double touches_border() const {
-    return (is_on_globe() ? of_globe().touches_border : shape().touches_border) ? 1 : 0;
-  }
-
- private:
-  double x_at(double of_diagram) const { return view_.units.x(of_diagram + view_.x); }
-  double y_at(double of_diagram) const { return view_.units.y(of_diagram + view_.y); }
-  double z_at(double of_diagram) const { return view_.units.z(of_diagram); }
-  bool is_on_globe() const { return measures_.is_on_globe(); }
-  const vorocl::CellRow& of_globe() const { return measures_.on_globe()[label_]; }
-  Point centroid() const { return measures_.sums()[label_].centroid(); }
-  const CellShape& shape() const { return measures_.shapes()[label_]; }
-  double if_full(double value) const { return measures_.pixels()[label_] > 0 ? value : RowText::unknown; }
-
-  Measures& measures_;
-  const View& view_;
-  std::uint32_t label_;
-};
-
-/// An exact cell as its row in the same table. What a cell without vertices does not have is unknown.
-class ExactRow {
- public:
-  ExactRow(Measures& measures, std::uint32_t seed)
-      : rows_(*measures.exact()), seed_(seed), cell_(rows_.cell(seed)) {}
-
-  double id() const { return rows_.id_of(seed_); }
-  double x() const { return rows_.point(seed_).x; }
-  double y() const { return rows_.point(seed_).y; }
-  double z() const { return rows_.point(seed_).z; }
-  double area() const { return cell_.area; }
-  double centroid_x() const { return if_full(cell_.centroid.x); }
-  double centroid_y() const { return if_full(cell_.centroid.y); }
-  double centroid_z() const { return if_full(cell_.centroid.z); }
-  double left() const { return extreme(&Point::x, false); }
-  double top() const { return extreme(&Point::y, rows_.y_up()); }
-  double front() const { return extreme(&Point::z, false); }
-  double right() const { return extreme(&Point::x, true); }
-  double bottom() const { return extreme(&Point::y, !rows_.y_up()); }
-  double back() const { return extreme(&Point::z, true); }
-  double perimeter() const { return cell_.perimeter; }
-  double neighbours() const { return cell_.neighbours; }
-  double largest_distance() const {
-    double found = RowText::unknown;
-    for (const Point& at : rows_.vertices(seed_))
-      found = std::fmax(found, std::hypot(at.x - x(), at.y - y(), at.z - z()));
-    return found;
-  }
-  double touches_border() const { return cell_.touches_border ? 1 : 0; }
-
- private:
-  double extreme(double Point::*along, bool greatest) const {
-    double found = RowText::unknown;
-    for (const Point& vertex : rows_.vertices(seed_))
-      found = greatest ? std::fmax(found, vertex.*along) : std::fmin(found, vertex.*along);
-    return found;
-  }
-  double if_full(double value) const { return cell_.area > 0 ? value : RowText::unknown; }
-
-  ExactCellRows& rows_;
-  std::uint32_t seed_;
-  const ExactCell& cell_;
-};
-
-/// Reads what a value is made of for all labels, if it was not read before, and says where it lies for this
-/// one.
-using Source = const void* (*)(Measures& measures, std::uint32_t label);
-
-template <typename T, const std::vector<T>& (Measures::*all)()>
-const void* entry_of(Measures& measures, std::uint32_t label) {
-  return (measures.*all)().data() + label;
-}
-/// The same of what has its place in on_globe() there.
-template <typename T, const std::vector<T>& (Measures::*all)()>
-const void* entry_of_plane(Measures& measures, std::uint32_t label) {
-  return measures.is_on_globe() ? entry_of<vorocl::CellRow, &Measures::on_globe>(measures, label)
-                                : entry_of<T, all>(measures, label);
-}
-constexpr Source seed = entry_of_plane<std::optional<Point>, &Measures::seeds>,
-                 pixels = entry_of_plane<std::uint32_t, &Measures::pixels>,
-                 sums = entry_of_plane<CellSums, &Measures::sums>,
-                 shape = entry_of_plane<CellShape, &Measures::shapes>,
-                 perimeter = entry_of<std::uint32_t, &Measures::perimeters>,
-                 neighbours = entry_of<std::uint32_t, &Measures::neighbours>;
-
-struct CellColumn {
-  std::string name;
-  CellsOf of;
-  Source source;  // of a diagram's cells; those of shapes are of the vertices of exact ones
-  /// Finds the values of the labels [begin, end).
-  void (*find)(Measures& measures, const std::uint32_t* begin, const std::uint32_t* end, double* values);
-};
-
-template <Source source, double (CellRow::*value)() const, double (ExactRow::*exact_value)() const>
-CellColumn column(const char* name, CellsOf of = CellsOf::both) {
-  const auto find = [](Measures& measures, const std::uint32_t* begin, const std::uint32_t* end,
-                       double* values) {
-    constexpr std::ptrdiff_t ahead = 8;  // ids say nothing of where labels lie
-    const bool are_exact = measures.exact() != nullptr;
-    for (const std::uint32_t* label = begin; label != end; ++label) {
-      if (!are_exact && end - label > ahead) __builtin_prefetch(source(measures, label[ahead]));
-      *values++ =
-          are_exact ? (ExactRow(measures, *label).*exact_value)() : (CellRow(measures, *label).*value)();
-    }
-  };
-  return {name, of, source, find};
+  cell.seed = view.position(*measures.seeds()[label]);
+  cell.area = view.units.area(measures.pixels()[label]);
+  if (is_full && (parts & of_sums) != 0) cell.centroid = view.position(measures.sums()[label].centroid());
+  if ((parts & of_shape) == 0) return cell;
+  const CellShape& shape = measures.shapes()[label];
+  cell.touches_border = shape.touches_border ? 1 : 0;
+  if (!is_full) return cell;
+  const auto at = [](std::int64_t first, std::int64_t pixel) { return static_cast<double>(first + pixel); };
+  cell.extent = view.units.extent({at(view.x, shape.left), at(view.y, shape.top), at(view.x, shape.right),
+                                   at(view.y, shape.bottom), at(0, shape.front), at(0, shape.back)});
+  cell.largest_distance = view.units.length(shape.farthest(measures.metric()));
+  return cell;
 }
 
-const std::vector<CellColumn>& all_cell_columns() {
-  static const std::vector<CellColumn> columns = {
-      column<seed, &CellRow::id, &ExactRow::id>("id"),
-      column<seed, &CellRow::x, &ExactRow::x>("x"),
-      column<seed, &CellRow::y, &ExactRow::y>("y"),
-      column<seed, &CellRow::z, &ExactRow::z>("z", CellsOf::volumes),
-      column<pixels, &CellRow::area, &ExactRow::area>("area", CellsOf::planes),
-      column<pixels, &CellRow::area, &ExactRow::area>("volume", CellsOf::volumes),
-      column<sums, &CellRow::centroid_x, &ExactRow::centroid_x>("centroid_x"),
-      column<sums, &CellRow::centroid_y, &ExactRow::centroid_y>("centroid_y"),
-      column<sums, &CellRow::centroid_z, &ExactRow::centroid_z>("centroid_z", CellsOf::volumes),
-      column<shape, &CellRow::left, &ExactRow::left>("left"),
-      column<shape, &CellRow::top, &ExactRow::top>("top"),
-      column<shape, &CellRow::front, &ExactRow::front>("front", CellsOf::volumes),
-      column<shape, &CellRow::right, &ExactRow::right>("right"),
-      column<shape, &CellRow::bottom, &ExactRow::bottom>("bottom"),
-      column<shape, &CellRow::back, &ExactRow::back>("back", CellsOf::volumes),
-      column<perimeter, &CellRow::perimeter, &ExactRow::perimeter>("perimeter", CellsOf::planes),
-      column<perimeter, &CellRow::perimeter, &ExactRow::perimeter>("surface", CellsOf::volumes),
-      column<neighbours, &CellRow::neighbours, &ExactRow::neighbours>("neighbours"),
-      column<shape, &CellRow::largest_distance, &ExactRow::largest_distance>("largest_distance"),
-      column<shape, &CellRow::touches_border, &ExactRow::touches_border>("touches_border")};
-  return columns;
+CellValues values_of(ExactCellRows& rows, std::uint32_t seed, unsigned parts) {
+  const ExactCell& exact = rows.cell(seed);
+  CellValues cell;
+  cell.id = rows.id_of(seed);
+  cell.seed = rows.point(seed);
+  cell.area = exact.area;
+  if (exact.area > 0) cell.centroid = exact.centroid;
+  cell.perimeter = exact.perimeter;
+  cell.neighbours = exact.neighbours;
+  cell.touches_border = exact.touches_border ? 1 : 0;
+  if ((parts & of_shape) == 0) return cell;
+  Extent& extent = cell.extent;
+  for (const Point& at : rows.vertices(seed)) {
+    extent = {std::fmin(extent.left, at.x),   std::fmin(extent.top, at.y),   std::fmax(extent.right, at.x),
+              std::fmax(extent.bottom, at.y), std::fmin(extent.front, at.z), std::fmax(extent.back, at.z)};
+    cell.largest_distance = std::fmax(cell.largest_distance,
+                                      std::hypot(at.x - cell.seed.x, at.y - cell.seed.y, at.z - cell.seed.z));
+  }
+  if (rows.y_up()) std::swap(extent.top, extent.bottom);
+  return cell;
 }
 
-void read_cells(const std::vector<CellColumn>& columns, Measures& measures) {
+/// Reads a part of all cells, if it was not read before, and says where it lies of this one.
+const void* entry_of(Measures& measures, CellPart part, std::uint32_t label) {
+  if (part == of_perimeter) return &measures.perimeters()[label];
+  if (part == of_neighbours) return &measures.neighbours()[label];
+  if (measures.is_on_globe()) return &measures.on_globe()[label];
+  return part == of_sums    ? static_cast<const void*>(&measures.sums()[label])
+         : part == of_shape ? static_cast<const void*>(&measures.shapes()[label])
+         : part == of_seed  ? static_cast<const void*>(&measures.seeds()[label])
+                            : &measures.pixels()[label];
+}
+
+unsigned parts_of(const std::vector<CellColumn>& columns) {
+  unsigned parts = of_pixels | of_seed;  // which say which cells have rows
+  for (const CellColumn& column : columns) parts |= column.part;
+  return parts;
+}
+
+void read_cells(unsigned parts, Measures& measures) {
   if (ExactCellRows* const exact = measures.exact()) {
-    const auto is_of_vertices = [](const CellColumn& column) { return column.source == shape; };
-    if (std::any_of(columns.begin(), columns.end(), is_of_vertices)) exact->read_vertices();
+    if ((parts & of_shape) != 0) exact->read_vertices();
     return;
   }
-  for (const CellColumn& column : columns) {
-    if (column.source != pixels) column.source(measures, 0);
+  for (const CellPart part : all_parts) {
+    if ((parts & part) != 0) entry_of(measures, part, 0);
   }
-  seed(measures, 0);    // these and the pixels say which cells have rows
-  pixels(measures, 0);  // behind the sums, which have them
 }
 
 void add_cells(const std::vector<CellColumn>& columns, GrowingFile& table, const std::string& first,
                Measures& measures) {
-  // A column after the other for some rows, so that each is a short loop; then row by row the text.
-  constexpr std::ptrdiff_t most_rows = 256;
+  constexpr std::ptrdiff_t ahead = 8;  // ids say nothing of where labels lie
+  const unsigned parts = parts_of(columns);
+  ExactCellRows* const exact = measures.exact();
   const auto add = [&](RowText& text, const std::uint32_t* begin, const std::uint32_t* end) {
-    std::vector<std::array<double, most_rows>> values(columns.size());
-    for (std::ptrdiff_t rows = 0; begin < end; begin += rows) {
-      rows = std::min(end - begin, most_rows);
-      for (std::size_t i = 0; i < columns.size(); ++i)
-        columns[i].find(measures, begin, begin + rows, values[i].data());
-      for (std::size_t row = 0; row < static_cast<std::size_t>(rows); ++row) {
-        text.begin_row();
-        for (const auto& column : values) text.add(column[row]);
-        if (measures.kept() != nullptr) text.add(measures.kept()->fields[begin[row]]);
-        text.end_row();
+    for (const std::uint32_t* label = begin; label != end; ++label) {
+      for (const CellPart part : all_parts) {
+        if (exact == nullptr && end - label > ahead && (parts & part) != 0)
+          __builtin_prefetch(entry_of(measures, part, label[ahead]));
       }
+      const CsvFields* const kept = measures.kept() == nullptr ? nullptr : &measures.kept()->fields[*label];
+      add_cell(text, columns,
+               exact != nullptr ? values_of(*exact, *label, parts) : values_of(measures, *label, parts),
+               kept);
     }
   };
   add_pieces(table, first, measures.cells(), add);
@@ -264,10 +173,9 @@ void FileKind::write(const OutputFile& file, Measures& measures) const {
   read(measures);
   if (const TableKind* const kind = table()) {
     GrowingFile rows(file);
-    std::string header = measures.view().units.header(kind->columns);
-    if (kind->of_cells && measures.kept() != nullptr)
-      header.insert(header.size() - 1, ',' + to_csv(other_names(measures.kept()->names, kind->columns)));
-    rows << header;
+    const bool has_kept = kind->of_cells && measures.kept() != nullptr;
+    rows << header_of_cells(kind->columns, measures.view().units,
+                            has_kept ? measures.kept()->names : CsvFields());
     kind->add_rows(rows, "", measures);
     rows.finish();
   } else {
@@ -280,6 +188,57 @@ const FileKind& labels_kind() {
                                 label_extensions(), [](Measures& measures) { measures.labels(); },
                                 write_label_file};
   return kind;
+}
+
+const std::vector<CellColumn>& all_cell_columns() {
+  using Cell = CellValues;
+  constexpr CellsOf both = CellsOf::both, planes = CellsOf::planes, volumes = CellsOf::volumes;
+  static const std::vector<CellColumn> columns = {
+      {"id", both, of_seed, [](const Cell& cell) { return cell.id; }},
+      {"x", both, of_seed, [](const Cell& cell) { return cell.seed.x; }},
+      {"y", both, of_seed, [](const Cell& cell) { return cell.seed.y; }},
+      {"z", volumes, of_seed, [](const Cell& cell) { return cell.seed.z; }},
+      {"area", planes, of_pixels, [](const Cell& cell) { return cell.area; }},
+      {"volume", volumes, of_pixels, [](const Cell& cell) { return cell.area; }},
+      {"centroid_x", both, of_sums, [](const Cell& cell) { return cell.centroid.x; }},
+      {"centroid_y", both, of_sums, [](const Cell& cell) { return cell.centroid.y; }},
+      {"centroid_z", volumes, of_sums, [](const Cell& cell) { return cell.centroid.z; }},
+      {"left", both, of_shape, [](const Cell& cell) { return cell.extent.left; }},
+      {"top", both, of_shape, [](const Cell& cell) { return cell.extent.top; }},
+      {"front", volumes, of_shape, [](const Cell& cell) { return cell.extent.front; }},
+      {"right", both, of_shape, [](const Cell& cell) { return cell.extent.right; }},
+      {"bottom", both, of_shape, [](const Cell& cell) { return cell.extent.bottom; }},
+      {"back", volumes, of_shape, [](const Cell& cell) { return cell.extent.back; }},
+      {"perimeter", planes, of_perimeter, [](const Cell& cell) { return cell.perimeter; }},
+      {"surface", volumes, of_perimeter, [](const Cell& cell) { return cell.perimeter; }},
+      {"neighbours", both, of_neighbours, [](const Cell& cell) { return cell.neighbours; }},
+      {"largest_distance", both, of_shape, [](const Cell& cell) { return cell.largest_distance; }},
+      {"touches_border", both, of_shape, [](const Cell& cell) { return cell.touches_border; }}};
+  return columns;
+}
+
+std::vector<CellColumn> cell_columns_of(const std::vector<std::string>& names) {
+  std::vector<CellColumn> columns;
+  for (const std::string& name : names) {
+    columns.push_back(*std::find_if(all_cell_columns().begin(), all_cell_columns().end(),
+                                    [&name](const CellColumn& any) { return any.name == name; }));
+  }
+  return columns;
+}
+
+void add_cell(RowText& text, const std::vector<CellColumn>& columns, const CellValues& cell,
+              const CsvFields* kept) {
+  text.begin_row();
+  for (const CellColumn& column : columns) text.add(column.value(cell));
+  if (kept != nullptr) text.add(*kept);
+  text.end_row();
+}
+
+std::string header_of_cells(const std::vector<std::string>& columns, const Units& units,
+                            const CsvFields& kept) {
+  std::string header = units.header(columns);
+  if (!kept.empty()) header.insert(header.size() - 1, ',' + to_csv(other_names(kept, columns)));
+  return header;
 }
 
 std::vector<std::string> cell_columns(CellsOf cells) {
@@ -309,19 +268,14 @@ std::vector<std::string> chosen_columns(const std::vector<std::string>& chosen, 
 }
 
 FileKind cells_kind(const std::vector<std::string>& names) {
-  std::vector<CellColumn> columns;
-  for (const std::string& name : names) {
-    const auto column = std::find_if(all_cell_columns().begin(), all_cell_columns().end(),
-                                     [&name](const CellColumn& any) { return any.name == name; });
-    columns.push_back(*column);
-  }
+  const std::vector<CellColumn> columns = cell_columns_of(names);
   const auto add_rows = [columns](GrowingFile& table, const std::string& first, Measures& measures) {
     add_cells(columns, table, first, measures);
   };
   return {"--cells",
           "A .csv file with one row per cell: its area, centroid, extent, perimeter, neighbours",
           {".csv"},
-          [columns](Measures& measures) { read_cells(columns, measures); },
+          [columns](Measures& measures) { read_cells(parts_of(columns), measures); },
           TableKind{names, add_rows, true}};
 }
 

@@ -9,6 +9,7 @@
 
 #include "app/outputs/measures.hpp"
 #include "app/outputs/output_files.hpp"
+#include "app/outputs/table_rows.hpp"
 
 namespace vorocl::command {
 
@@ -41,6 +42,44 @@ struct FileKind {
 /// Labels by id: .npy, .tif or .vti.
 const FileKind& labels_kind();
 enum class CellsOf { planes, volumes, both, globe };
+
+/// A cell as its row in a table, in the units of that; what it does not have is unknown.
+struct CellValues {
+  static constexpr double unknown = RowText::unknown;
+  double id = 0;
+  Point seed;
+  double area = 0, perimeter = 0, neighbours = 0, touches_border = 0, largest_distance = unknown;
+  Point centroid = {unknown, unknown, unknown};
+  Extent extent = {unknown, unknown, unknown, unknown, unknown, unknown};
+};
+
+/// What is read of all cells of a diagram at once; of exact cells shapes are those of vertices.
+enum CellPart : unsigned {
+  of_seed = 1,
+  of_pixels = 2,
+  of_sums = 4,
+  of_shape = 8,
+  of_perimeter = 16,
+  of_neighbours = 32
+};
+
+struct CellColumn {
+  std::string name;
+  CellsOf of;
+  CellPart part;
+  double (*value)(const CellValues& cell);
+};
+
+std::vector<CellColumn> cell_columns_of(const std::vector<std::string>& names);
+
+/// A row, with what is kept of the input.
+void add_cell(RowText& text, const std::vector<CellColumn>& columns, const CellValues& cell,
+              const CsvFields* kept);
+
+/// The first line of a table of cells.
+std::string header_of_cells(const std::vector<std::string>& columns, const Units& units,
+                            const CsvFields& kept);
+
 /// The columns that a table of such cells can have, in their order.
 std::vector<std::string> cell_columns(CellsOf cells);
 /// Those that were chosen, or all. Throws UsageError for one that such cells do not have.

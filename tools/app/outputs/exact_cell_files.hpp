@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "app/sources/exact_input.hpp"
+#include "app/sources/seed_input.hpp"
 #include "formats/output_file.hpp"
 #include "vorocl/exact_cells.hpp"
 

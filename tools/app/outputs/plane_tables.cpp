@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <vector>
 
-#include "app/outputs/output_files.hpp"
+#include "app/outputs/diagram_files.hpp"
 #include "app/outputs/plane_summary.hpp"
 #include "formats/files.hpp"
 #include "formats/values.hpp"
@@ -53,11 +53,12 @@ class SharesByCell {
 void write_cells(const OutputFile& file, const PlaneCells& cells, const std::vector<PlaneCellPair>& pairs,
                  const Units& units, const PlaneRows& seeds, std::uint64_t pixels) {
   GrowingFile table(file);
-  CsvFields columns = {"id",  "x",     "y",      "area",      "centroid_x", "centroid_y",    "left",
-                       "top", "right", "bottom", "perimeter", "neighbours", "touches_border"};
-  std::string header = units.header(columns);
-  if (!seeds.names.empty()) header.insert(header.size() - 1, ',' + to_csv(other_names(seeds.names, columns)));
-  table << header;
+  const std::vector<std::string> names = {
+      "id",  "x",     "y",      "area",      "centroid_x", "centroid_y",    "left",
+      "top", "right", "bottom", "perimeter", "neighbours", "touches_border"};
+  const std::vector<CellColumn> columns = cell_columns_of(names);
+  table << header_of_cells(names, units, seeds.names);
+  RowText row("");
   SharesByCell shares_by_cell(pairs);
   std::uint64_t summed = 0;
   for (std::uint64_t id = 0; id < cells.size(); ++id) {
@@ -65,16 +66,20 @@ void write_cells(const OutputFile& file, const PlaneCells& cells, const std::vec
     if (cell.area == 0) continue;
     summed += cell.area;
     const Shares shares = shares_by_cell.of(id);
-    const Point centroid = units.position(cell.centroid);
-    const Extent extent = units.extent({static_cast<double>(cell.left), static_cast<double>(cell.top),
-                                        static_cast<double>(cell.right), static_cast<double>(cell.bottom)});
     const auto [place, kept] = seeds.next(id);
-    const Point seed = units.position(place);
-    table << fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{}{}{}\n", id, seed.x, seed.y,
-                         units.area(static_cast<double>(cell.area)), centroid.x, centroid.y, extent.left,
-                         extent.top, extent.right, extent.bottom,
-                         units.length(static_cast<double>(shares.perimeter)), shares.neighbours,
-                         cell.touches_border ? 1 : 0, kept.empty() ? "" : ",", to_csv(kept));
+    CellValues values;
+    values.id = static_cast<double>(id);
+    values.seed = units.position(place);
+    values.area = units.area(static_cast<double>(cell.area));
+    values.centroid = units.position(cell.centroid);
+    values.extent = units.extent({static_cast<double>(cell.left), static_cast<double>(cell.top),
+                                  static_cast<double>(cell.right), static_cast<double>(cell.bottom)});
+    values.perimeter = units.length(static_cast<double>(shares.perimeter));
+    values.neighbours = static_cast<double>(shares.neighbours);
+    values.touches_border = cell.touches_border ? 1 : 0;
+    row.clear();
+    add_cell(row, columns, values, &kept);
+    table << row.text();
   }
   if (summed != pixels && summed > 0) {  // without any seed no pixel has a cell
     throw Error(

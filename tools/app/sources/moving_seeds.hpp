@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "app/sources/seed_input.hpp"
-#include "app/sources/trajectory_seeds.hpp"
 #include "app/terminal/end_of_run.hpp"
 #include "vorocl/motion.hpp"
 
@@ -27,6 +26,18 @@ std::string how_to_continue(const FrameRange& frames, int complete, bool has_tab
 /// Says on standard error that the trajectory's last frame comes before the last one that is asked for, if
 /// so.
 void note_of_last(const std::string& trajectory, const FrameRange& frames, int last);
+
+/// What a picture of many frames shows where no bounds are given.
+enum class Fit {
+  all,   ///< the bounds of all frames, with one scale
+  frame  ///< each frame's own, stretched onto the picture
+};
+
+/// What is wrong in a frame of a file: to make frames again from there on is of no use.
+class BadFrame : public Error {
+ public:
+  using Error::Error;
+};
 
 struct MotionOptions {
   FrameRange frames;

@@ -3,19 +3,36 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <filesystem>
+#include <system_error>
 #include <utility>
 #include <vector>
 
 #include "app/sources/bounds.hpp"
+#include "app/sources/data_grid.hpp"
 #include "app/sources/random_seeds.hpp"
 #include "app/sources/trajectory_seeds.hpp"
-#include "app/sources/volume_input.hpp"
 #include "app/terminal/console.hpp"
 #include "formats/files.hpp"
 #include "formats/images/pictures.hpp"
 #include "formats/npy.hpp"
 
 namespace vorocl::command {
+
+void place_points(Input& input, const SeedOptions& options, std::vector<std::optional<Point>> points,
+                  const Weights& weights, Outside outside) {
+  input.points = std::make_shared<const std::vector<std::optional<Point>>>(std::move(points));
+  input.weights = weights;
+  input.place = [grid = input.view.window.grid(), points = input.points, weights, outside,
+                 snap = options.snapping(),
+                 file = options.points + options.trajectory](const Device& device) {
+    try {
+      return Seeds(device, grid, weighted(*points, weights), {outside, snap});
+    } catch (const BadPoint& error) {
+      throw Error(file + ": " + error.what());
+    }
+  };
+}
 
 namespace {
 
@@ -40,99 +57,119 @@ Mapping mapping_of(const SeedOptions& options, const std::vector<Point>& points)
   return mapping;
 }
 
-Input plane_from_points(const SeedOptions& options) {
-  const CsvPoints read = read_points(options);
-  const std::vector<Point>& points = read.points;
-  try {
-    const Mapping mapping = mapping_of(options, points);
-    const Size picture = picture_size(options, mapping.bounds);
-    const Weights weights =
-        weights_of(options, read.values, read.ids,
-                   options.weight_column.empty() ? 1 : pixels_of_square(mapping.bounds, picture));
-    const MappedPoints mapped = map_points(points, mapping, picture, read.ids);
-    warn_of_scales(mapping.bounds, picture.grid());
-    if (mapping.periodic != Axes::none && !options.bounds && !options.domain) {
-      print_note(fmt::format("the period is the bounding box of the points{}, {}; {} says another one",
-                             options.margin > 0 ? " and its margin" : "", to_string(mapping.bounds),
-                             options.margin > 0 ? "--bounds" : "--domain"));
-    }
-    note_outside(mapped.outside, points.size(), mapping.bounds, options.keeps_inside);
-    return {mapped.view,
-            [mapped, weights, snap = mapping.snap](const Device& device) {
-              const Points places = weighted(mapped.places, weights);
-              return Seeds(device, mapped.view.window.grid(), places, {Outside::count, snap});
-            },
-            read.ids,
-            read.values,
-            mapped.is_window(),
-            {read.kept_names, read.kept}};
-  } catch (const Error& error) {
-    throw Error(options.points + ": " + error.what());
+/// Of a plane, in pixels of its picture.
+Input map_input(const SeedOptions& options, const CsvPoints& read) {
+  const Mapping mapping = mapping_of(options, read.points);
+  const Size picture = picture_size(options, mapping.bounds);
+  const Weights weights =
+      weights_of(options, read.values, read.ids,
+                 options.weight_column.empty() ? 1 : pixels_of_square(mapping.bounds, picture));
+  const MappedPoints mapped = map_points(read.points, mapping, picture, read.ids);
+  warn_of_scales(mapping.bounds, picture.grid());
+  if (mapping.periodic != Axes::none && !options.bounds && !options.domain) {
+    print_note(fmt::format("the period is the bounding box of the points{}, {}; {} says another one",
+                           options.margin > 0 ? " and its margin" : "", to_string(mapping.bounds),
+                           options.margin > 0 ? "--bounds" : "--domain"));
   }
+  note_outside(mapped.outside, read.points.size(), mapping.bounds, options.keeps_inside);
+  Input input = {mapped.view};
+  input.is_window = mapped.is_window();
+  place_points(input, options, {mapped.places.begin(), mapped.places.end()}, weights);
+  return input;
 }
 
 /// Points as they are, on a grid of degrees.
-Input globe_from_points(const SeedOptions& options) {
-  CsvPoints read = read_points(options);
+Input globe_input(const SeedOptions& options, std::vector<Point>& points) {
+  const Bounds bounds = options.bounds.value_or(Bounds{-180, -90, 180, 90});
+  const bool is_whole = bounds.x1 - bounds.x0 == 360;
+  const Size picture = picture_size(options, bounds);
+  const Axis x = data_axis(picture.width(), bounds.x0, bounds.x1, is_whole, true);
+  const Axis y = data_axis(picture.height(), bounds.y0, bounds.y1, false, true);
+  const Grid grid(x, options.y_down ? y : y.reversed());
+  for (Point& point : points) {  // so that those beyond 180 degrees are drawn where they are
+    if (std::abs(point.y) > 90)
+      throw BadPoint(static_cast<std::size_t>(&point - points.data()), point,
+                     "is no place on the globe: y is its latitude, from -90 to 90 degrees");
+    const double shown = point.x - 360 * std::floor((point.x - bounds.x0) / 360);
+    if (shown <= bounds.x1) point.x = shown;
+  }
+  Input input = {
+      {{picture, {bounds, !options.y_down, options.crs}}, grid, 0, 0, 0, 0, Units::of_globe(grid)}};
+  place_points(input, options, {points.begin(), points.end()}, nullptr);
+  return input;
+}
+
+/// In the units of the data.
+Input data_input(const SeedOptions& options, const CsvPoints& read, bool is_volume) {
+  const Grid grid =
+      is_volume ? box_of_points(options, read.points, read.ids) : rectangle_of_points(options, read.points);
+  Input input = {view_of_grid(grid, in_pixels(options))};
+  place_points(input, options, {read.points.begin(), read.points.end()},
+               weights_of(options, read.values, read.ids),
+               is_volume ? Outside::refuse : options.outside.value_or(Outside::count));
+  return input;
+}
+
+Input input_from_points(const SeedOptions& options, bool is_volume) {
+  CsvPoints read = read_points(options, is_volume);
   try {
-    const Bounds bounds = options.bounds.value_or(Bounds{-180, -90, 180, 90});
-    const bool is_whole = bounds.x1 - bounds.x0 == 360;
-    const Size picture = picture_size(options, bounds);
-    const Axis x = data_axis(picture.width(), bounds.x0, bounds.x1, is_whole, true);
-    const Axis y = data_axis(picture.height(), bounds.y0, bounds.y1, false, true);
-    const Grid grid(x, options.y_down ? y : y.reversed());
-    for (Point& point : read.points) {  // so that those beyond 180 degrees are drawn where they are
-      if (std::abs(point.y) > 90)
-        throw BadPoint(static_cast<std::size_t>(&point - read.points.data()), point,
-                       "is no place on the globe: y is its latitude, from -90 to 90 degrees");
-      const double shown = point.x - 360 * std::floor((point.x - bounds.x0) / 360);
-      if (shown <= bounds.x1) point.x = shown;
-    }
-    return {{{picture, {bounds, !options.y_down, options.crs}}, grid, 0, 0, 0, 0, Units::of_globe(grid)},
-            [grid, points = read.points, snap = options.snapping()](const Device& device) {
-              return Seeds(device, grid, points, {Outside::count, snap});
-            },
-            read.ids,
-            read.values,
-            false,
-            {read.kept_names, read.kept}};
+    Input input = is_volume || options.is_exact ? data_input(options, read, is_volume)
+                  : options.on_globe            ? globe_input(options, read.points)
+                                                : map_input(options, read);
+    input.ids = std::move(read.ids);
+    input.values = std::move(read.values);
+    input.kept = {std::move(read.kept_names), std::move(read.kept)};
+    return input;
   } catch (const Error& error) {
     throw Error(options.points + ": " + error.what());
   }
 }
 
-Input plane_from_mask(const SeedOptions& options) {
+Input input_from_mask(const SeedOptions& options) {
   const Mask mask = read_mask(options.mask, options.threshold);
   for (const std::string& note : mask.notes) print_note(note);
   check_mask_size(options.mask, mask.size.grid(), options.size);
   const Grid grid = mask.size.grid(periodic_axes(options));
-  View view = {mask.size, grid};
-  view.picture.georeference = georeference_of(mask.geotags);
-  return {
-      view,
-      [grid, pixels = mask.pixels](const Device& device) { return Seeds::from_mask(device, grid, pixels); },
-      {}};
+  Input input = {view_of_grid(grid, true)};
+  input.view.picture.georeference = georeference_of(mask.geotags);
+  input.place = [grid, pixels = mask.pixels](const Device& device) {
+    return Seeds::from_mask(device, grid, pixels);
+  };
+  return input;
 }
 
 /// The device makes more random seeds in less time than the host, but its program for it takes tens of
 /// milliseconds to build.
 constexpr std::size_t most_on_host = std::size_t{1} << 20;
 
-Input plane_at_random(const SeedOptions& options) {
+Input input_at_random(const SeedOptions& options) {
   if (!options.size) throw UsageError("--size WxH is required with --random");
   const Grid grid = options.grid();
-  return {{Size(grid), grid},
-          [grid, options](const Device& device) {
-            if (options.random > most_on_host) {
-              return Seeds::random(device, grid, options.random, options.rng_seed);
-            }
-            std::vector<Point> pixels;
-            for (std::size_t id = 0; id < options.random; ++id) {
-              pixels.push_back(random_pixel(grid, static_cast<std::uint32_t>(id), options.rng_seed));
-            }
-            return Seeds(device, grid, pixels, {Outside::count, options.snapping()});
-          },
-          {}};
+  Input input = {view_of_grid(grid, true)};
+  input.place = [grid, options](const Device& device) {
+    if (grid.is_volume() || options.random > most_on_host) {
+      return Seeds::random(device, grid, options.random, options.rng_seed);
+    }
+    std::vector<Point> pixels;
+    for (std::size_t id = 0; id < options.random; ++id) {
+      pixels.push_back(random_pixel(grid, static_cast<std::uint32_t>(id), options.rng_seed));
+    }
+    return Seeds(device, grid, pixels, {Outside::count, options.snapping()});
+  };
+  return input;
+}
+
+/// Whether a file has places of a volume, or a box that is tilted in z. What can be read once alone has none.
+bool has_depth(const SeedOptions& options) {
+  std::error_code code;
+  const std::string& path = options.points + options.trajectory;  // one of these
+  if (!std::filesystem::is_regular_file(path, code)) return false;
+  Frame frame;
+  if (!options.trajectory.empty()) {
+    return open_trajectory(path, "", Wanted::depth)->next(frame) &&
+           (frame.z_span > 0 || (frame.box && (frame.box->xz != 0 || frame.box->yz != 0)));
+  }
+  return extension_of(path) == ".npy" && holds_points_of_volume(path);
 }
 
 }  // namespace
@@ -227,7 +264,7 @@ void check_weight_options(const SeedOptions& options) {
     throw UsageError("--color column:NAME and --weights or --radius take one column, and these are two");
 }
 
-void check_seed_options(const SeedOptions& options, bool needs_size) {
+void check_seed_options(const SeedOptions& options) {
   check_weight_options(options);
   const char* const of_volumes = options.bounds && options.bounds->is_box() ? "--bounds with six numbers"
                                  : has_z(periodic_axes(options))            ? "--periodic with z"
@@ -258,12 +295,40 @@ void check_seed_options(const SeedOptions& options, bool needs_size) {
     throw UsageError("--domain needs --periodic x, y or xy");
   }
   if (!options.points.empty() || !options.trajectory.empty()) {
-    if (options.size || options.width != 0 || !needs_size) return;
+    if (options.size || options.width != 0 || options.is_exact) return;
     throw UsageError(std::string("--size WxH or --width W is required with ") +
                      (options.points.empty() ? "--trajectory" : "--points"));
   }
   const char* const given = option_of_data(options);
   if (given != nullptr) throw UsageError(std::string(given) + " needs --points or --trajectory");
+}
+
+void refuse_in_volumes(const std::string& option) {
+  throw UsageError(option + " is for planes, not for volumes");
+}
+
+void check_volume_options(const SeedOptions& options) {
+  check_weight_options(options);
+  const char* const of_planes = !options.mask.empty()           ? "--mask"
+                                : options.width != 0            ? "--width"
+                                : options.outside               ? "--outside"
+                                : options.y_up                  ? "--y-up"
+                                : options.y_down                ? "--y-down"
+                                : options.margin > 0            ? "--margin"
+                                : !options.value_column.empty() ? "--color column:NAME"
+                                                                : nullptr;
+  if (of_planes != nullptr) refuse_in_volumes(of_planes);
+  if (options.domain) throw UsageError("--domain is for planes; the periods of a volume are its --bounds");
+  const char* const of_data = option_of_data(options);
+  if (of_data != nullptr && options.random > 0) {
+    throw UsageError(std::string(of_data) + " needs --points or --trajectory");
+  }
+  if (options.bounds && !options.bounds->is_box()) {
+    throw UsageError("the --bounds of a volume are six numbers: X0,Y0,Z0,X1,Y1,Z1");
+  }
+  if (options.columns && options.columns->z.empty()) {
+    throw UsageError("the --columns of a volume are three: X,Y,Z");
+  }
 }
 
 void snap_for(const std::string& what, SeedOptions& options) {
@@ -292,14 +357,29 @@ bool points_up(const SeedOptions& options) {
   return options.y_up || (!options.trajectory.empty() && !options.y_down);
 }
 
-Input read_input(const SeedOptions& options) {
-  const bool is_volume = options.is_volume();
+bool check_seeds(SeedOptions& options) {
+  const bool is_told = options.is_exact && ((options.bounds && options.bounds->is_box()) ||
+                                            (options.periodic && has_z(*options.periodic)) ||
+                                            (options.columns && !options.columns->z.empty()));
+  const bool may_be_told =
+      options.is_exact && !options.bounds && !options.columns && !options.domain && options.mask.empty();
+  const bool is_volume = options.is_volume() || is_told || (may_be_told && has_depth(options));
   is_volume ? check_volume_options(options) : check_seed_options(options);
-  if (!options.trajectory.empty()) return *TrajectorySeeds(options, options.frame).next();
-  if (is_volume) return read_volume_input(options);
-  if (options.random > 0) return plane_at_random(options);
-  if (options.on_globe) return globe_from_points(options);
-  return options.mask.empty() ? plane_from_points(options) : plane_from_mask(options);
+  if (options.is_exact && options.random == 0) options.size.reset();
+  return is_volume;
+}
+
+Input read_input(SeedOptions options) {
+  const bool is_volume = check_seeds(options);
+  if (!options.trajectory.empty()) return TrajectorySeeds(options, is_volume, options.frame).frame();
+  if (!options.points.empty()) return input_from_points(options, is_volume);
+  Input input = options.mask.empty() ? input_at_random(options) : input_from_mask(options);
+  if (!options.is_exact || is_volume) return input;
+  input.place = [place = std::move(input.place)](const Device& device) {
+    const Seeds pixels = place(device);
+    return Seeds(device, pixels.grid(), pixels.read_pixels());
+  };
+  return input;
 }
 
 }  // namespace vorocl::command

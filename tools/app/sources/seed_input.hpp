@@ -28,7 +28,7 @@ struct SeedOptions {
   std::optional<double> threshold;  // of the mask: see MaskRows
   std::string trajectory;
   int frame = 0;             // of the trajectory
-  std::optional<Grid> size;  // without periodic axes; some commands make volumes: see volume_input.hpp
+  std::optional<Grid> size;  // without periodic axes; some commands make volumes
   int width = 0;
   std::optional<Bounds> bounds;    // a box of a volume
   double margin = 0;               // without them, in percent of the longer side of the points' box
@@ -46,6 +46,7 @@ struct SeedOptions {
   std::string value_column;           // whose values are read with the points
   std::string weight_column;          // ""; none
   bool are_radii = false;             // weights are squares of that column
+  bool is_exact = false;              // of cells without pixels, which lie where the data have them
   bool on_globe = false;              // points are longitudes and latitudes: distances are great circles
   std::optional<MeasureUnits> units;  // else those of the data, where there are bounds
   std::string keeps_inside;           // see note_outside()
@@ -76,9 +77,13 @@ constexpr const char* keeps_flooding_inside = "flooding cannot take, only exact 
 /// The first option that was given of those that points and particles alone have; null: none.
 const char* option_of_data(const SeedOptions& options);
 
-/// What no parser can say: options that go with either of two others. Throws UsageError. `needs_size`: points
-/// and particles need pixels.
-void check_seed_options(const SeedOptions& options, bool needs_size = true);
+/// What no parser can say: options that go with either of two others, of planes and of volumes. Throw
+/// UsageError.
+void check_seed_options(const SeedOptions& options);
+void check_volume_options(const SeedOptions& options);
+
+/// Throws UsageError: volumes do not have this option.
+[[noreturn]] void refuse_in_volumes(const std::string& option);
 
 /// Throws UsageError for options of weights where there can be none.
 void check_weight_options(const SeedOptions& options);
@@ -132,11 +137,11 @@ bool in_pixels(const SeedOptions& options);
 /// Seeds that were read and checked, and that a device can now be given.
 struct Input {
   View view;
-  std::function<Seeds(const Device&)> place;
-  std::vector<std::uint32_t> ids;  // that labels carry, by seed; empty: the seeds' own
-  ColumnValues values = {};        // of the value column, by seed; NaN: absent
-  bool is_window = false;          // see MappedPoints
-  KeptColumns kept = {};           // of --keep
+  std::function<Seeds(const Device&)> place = nullptr;
+  std::vector<std::uint32_t> ids = {};  // that labels carry, by seed; empty: the seeds' own
+  ColumnValues values = {};             // of the value column, by seed; NaN: absent
+  bool is_window = false;               // see MappedPoints
+  KeptColumns kept = {};                // of --keep
 
   // Of a trajectory's frame.
   std::optional<std::int64_t> timestep = std::nullopt;  // where the file has one
@@ -153,8 +158,19 @@ struct Input {
 /// Throws Error for a window, or a diagram that is a part of the picture; `what` ("bench") takes none.
 void refuse_window(const Input& input, const std::string& what);
 
-/// Checks the options, and reads and checks the files, of a plane or a volume. Throws UsageError, Error if a
-/// file is bad; warns on standard error where the axes get different scales.
-Input read_input(const SeedOptions& options);
+/// Has these points placed on the view's grid, where the options have them snapped or not.
+void place_points(Input& input, const SeedOptions& options, std::vector<std::optional<Point>> points,
+                  const Weights& weights, Outside outside = Outside::count);
+
+/// Checks the options, and returns whether they ask for a volume. Exact cells are one if an option says so
+/// that planes do not have (bounds of six numbers, z among the columns or the periodic axes, a depth), or if
+/// neither bounds nor columns say that it is a plane, and the points are an array of three columns, or the
+/// particles of the first frame do not lie in a plane, or its box is tilted in z. Their size says no more.
+/// Throws UsageError.
+bool check_seeds(SeedOptions& options);
+
+/// Checks the options, and reads and checks the files, of a plane, a volume or exact cells. Throws
+/// UsageError, Error if a file is bad; warns on standard error where the axes get different scales.
+Input read_input(SeedOptions options);
 
 }  // namespace vorocl::command

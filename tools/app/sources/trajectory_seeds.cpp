@@ -9,8 +9,7 @@
 #include <utility>
 
 #include "app/sources/bounds.hpp"
-#include "app/sources/particles.hpp"
-#include "app/sources/volume_input.hpp"
+#include "app/sources/data_grid.hpp"
 #include "app/terminal/console.hpp"
 #include "vorocl/error.hpp"
 
@@ -80,112 +79,114 @@ std::vector<T> by_slot(const std::vector<T>& of_particles, const std::vector<std
 
 }  // namespace
 
-FrameReader::FrameReader(const SeedOptions& options, bool of_volume)
-    : path_(options.trajectory),
-      reader_(open_trajectory(path_, options.read_column(), of_volume ? Wanted::volume : Wanted::all)) {}
+TrajectorySeeds::TrajectorySeeds(const SeedOptions& options, bool is_volume, int start,
+                                 std::optional<int> last, Fit fit, const std::optional<Bounds>& all)
+    : options_(options),
+      is_volume_(is_volume),
+      reader_(open_trajectory(options.trajectory, options.read_column(),
+                              is_volume ? Wanted::volume : Wanted::all)),
+      number_(start),
+      last_(last),
+      fit_(fit),
+      fitted_(all),
+      present_(first()),
+      bytes_(present_.bytes_left) {}
 
-bool FrameReader::next() {
-  Read read;
+Input TrajectorySeeds::first() {
+  while (number_read_ < number_) {
+    if (read()) continue;
+    throw Error(fmt::format("{}: there is no frame {}; the last one of the file is {}, counted from 0",
+                            options_.trajectory, number_, number_read_));
+  }
+  return placed();
+}
+
+bool TrajectorySeeds::read() {
   try {
-    read = ahead_.valid() ? ahead_.get() : read_into(std::move(room_));
+    if (!reader_->next(read_)) return false;
   } catch (const Error& error) {
     throw BadFrame(error.what());
   }
-  if (!read.is_there) return false;
-  room_ = std::exchange(frame_, std::move(read.frame));
-  bytes_left_ = read.bytes_left;
-  ++number_;
+  ++number_read_;
   return true;
 }
 
-void FrameReader::go_to(int number) {
-  while (number_ < number) {
-    if (next()) continue;
-    throw Error(fmt::format("{}: there is no frame {}; the last one of the file is {}, counted from 0", path_,
-                            number, number_));
-  }
+BadFrame TrajectorySeeds::error(const Error& what) const {
+  return BadFrame(fmt::format("{}: frame {}: {}", options_.trajectory, number_read_, what.what()));
 }
 
-void FrameReader::read_ahead() {
-  if (!bytes_left_) return;
+bool TrajectorySeeds::next() {
+  if (number_ == last_) return false;
+  std::optional<Input> next = ahead_.valid() ? ahead_.get() : placed_next();
+  if (!next) return false;
+  present_ = std::move(*next);
+  ++number_;
+  place_ahead();
+  return true;
+}
+
+void TrajectorySeeds::move(Seeds& seeds, Window& window) const {
+  window = present_.view.window;
+  seeds.move_to(window.grid(), weighted(*present_.points, present_.weights));
+}
+
+std::optional<double> TrajectorySeeds::done() const {
+  const double of_frames = last_ ? static_cast<double>(number_) / *last_ : 0;
+  const auto left = present_.bytes_left;
+  if (!bytes_ || !left || *bytes_ == 0) return last_ ? std::optional<double>(of_frames) : std::nullopt;
+  return std::max(of_frames, 1 - static_cast<double>(*left) / static_cast<double>(*bytes_));
+}
+
+void TrajectorySeeds::place_ahead() {
+  // Not from a pipe, where the next frame may never come.
+  if (number_ == last_ || !present_.bytes_left) return;
   try {
-    ahead_ = std::async(std::launch::async,
-                        [this, room = std::move(room_)]() mutable { return read_into(std::move(room)); });
+    ahead_ = std::async(std::launch::async, [this] { return placed_next(); });
   } catch (const std::system_error&) {
-    // Where the system allows no more threads, the frame is read when it is needed.
+    // Where the system allows no more threads, the frame is placed when it is needed.
   }
 }
 
-BadFrame FrameReader::error(const Error& what) const {
-  return BadFrame(fmt::format("{}: frame {}: {}", path_, number_, what.what()));
+std::optional<Input> TrajectorySeeds::placed_next() {
+  return read() ? std::optional(placed()) : std::nullopt;
 }
 
-FrameReader::Read FrameReader::read_into(Frame room) const {
-  Read read;
-  read.frame = std::move(room);
-  read.is_there = reader_->next(read.frame);
-  read.bytes_left = reader_->bytes_left();
-  return read;
-}
-
-TrajectorySeeds::TrajectorySeeds(const SeedOptions& options, int start, Fit fit,
-                                 const std::optional<Bounds>& all)
-    : options_(options), reader_(options, is_volume()), fit_(fit), fitted_(all) {
-  reader_.go_to(start);
-  has_boxes_ = reader_.frame().box.has_value();
-}
-
-std::optional<Input> TrajectorySeeds::next() {
-  if (!is_first_) {
-    if (!reader_.next()) return std::nullopt;
-    reader_.read_ahead();
-  }
-  Input input = is_volume() ? volume() : plane();
-  const Frame& frame = reader_.frame();
-  if (is_first_) note_of_frame(frame, reader_.number(), options_.periodic, is_volume());
+Input TrajectorySeeds::placed() {
+  const Frame& frame = read_;
+  if (is_first_) has_boxes_ = frame.box.has_value();
+  Input input = is_volume_ || options_.is_exact ? in_data() : plane();
+  if (is_first_) note_of_frame(frame, number_read_, options_.periodic, is_volume_);
   is_first_ = false;
-  window_ = input.view.window;
-  points_ = input.points;
-  input.place = [grid = window_->grid(), points = points_, weights = input.weights,
-                 snap = options_.snapping()](const Device& device) {
-    return Seeds(device, grid, weighted(*points, weights), {Outside::count, snap});
-  };
   input.timestep = frame.timestep;
   input.box = frame.box;
-  input.bytes_left = reader_.bytes_left();
+  input.bytes_left = reader_->bytes_left();
   return input;
 }
 
-Input TrajectorySeeds::volume() {
-  const Frame& frame = reader_.frame();
-  const std::vector<Point> points = points_of(frame);
-  const Grid grid = [&] {
-    try {
-      return grid_of_frame(options_, frame, points, fitted_);
-    } catch (const Error& error) {
-      throw reader_.error(error);
-    }
-  }();
-  if (is_first_) note_scales(grid);
-  if (!scales_checked_) scales_checked_ = warn_of_voxels(grid, fmt::format("frame {}: ", reader_.number()));
-  Input input = {view_of_volume(grid, in_pixels(options_)), {}, frame.ids};
-  input.weights = weights_of_frame(1);
-  input.points = std::make_shared<std::vector<std::optional<Point>>>(points.begin(), points.end());
-  return input;
-}
-
-Weights TrajectorySeeds::weights_of_frame(double squares) const {
+Input TrajectorySeeds::in_data() {
+  const Frame& frame = read_;
+  const std::vector<Point> points = is_volume_ ? points_of(frame) : frame.positions;
   try {
-    return weights_of(options_, reader_.frame().values, reader_.frame().ids, squares);
+    const Grid grid = is_volume_ ? box_of_frame(options_, frame, points, fitted_)
+                                 : rectangle_of_frame(options_, frame, is_first_);
+    if (is_first_ && options_.size) note_scales(grid);
+    if (!scales_checked_ && options_.size)
+      scales_checked_ = warn_of_voxels(grid, fmt::format("frame {}: ", number_read_));
+    Input input = {view_of_grid(grid, in_pixels(options_))};
+    input.ids = frame.ids;
+    place_points(input, options_, {points.begin(), points.end()},
+                 weights_of(options_, frame.values, frame.ids),
+                 is_volume_ ? Outside::count : options_.outside.value_or(Outside::count));
+    return input;
   } catch (const Error& error) {
-    throw reader_.error(error);
+    throw this->error(error);
   }
 }
 
 std::optional<Bounds> TrajectorySeeds::shown_bounds() {
   if (options_.bounds) return options_.bounds;
-  if (fit_ == Fit::frame) return bounds_of(reader_.frame());
-  if (!fitted_) fitted_ = bounds_of(reader_.frame());
+  if (fit_ == Fit::frame) return bounds_of(read_);
+  if (!fitted_) fitted_ = bounds_of(read_);
   return fitted_;
 }
 
@@ -203,7 +204,7 @@ Size TrajectorySeeds::size_of_picture(const std::optional<Bounds>& bounds) const
 }
 
 Mapping TrajectorySeeds::mapping_of_frame(const Bounds& bounds) const {
-  const std::optional<Box>& box = reader_.frame().box;
+  const std::optional<Box>& box = read_.box;
   Mapping mapping;
   mapping.bounds = bounds;
   mapping.outside = options_.outside.value_or(Outside::count);
@@ -214,7 +215,7 @@ Mapping TrajectorySeeds::mapping_of_frame(const Bounds& bounds) const {
   mapping.in_pixels = in_pixels(options_);
   mapping.has_one_scale = fit_ == Fit::all || options_.bounds;
   if (box) {
-    mapping.domain = bounds_of(reader_.frame());
+    mapping.domain = bounds_of(read_);
     mapping.ends = {!box->open_x0, !box->open_y0, !box->open_x1, !box->open_y1};
     if (mapping.periodic == Axes::xy) mapping.tilt = box->tilt;
     if (box->tilt != 0 && mapping.periodic == Axes::y) {
@@ -239,13 +240,13 @@ void TrajectorySeeds::note_of_scales(const Bounds& bounds, std::size_t outside) 
   }
   note_of_growth();
   if (!scales_checked_ && options_.bounds) {
-    note_outside(outside, reader_.frame().ids.size(), bounds, options_.keeps_inside);
+    note_outside(outside, read_.ids.size(), bounds, options_.keeps_inside);
   }
   scales_checked_ = true;
 }
 
 void TrajectorySeeds::note_of_growth() {
-  const auto own = bounds_of(reader_.frame());
+  const auto own = bounds_of(read_);
   if (growth_noted_ || fit_ == Fit::frame || options_.bounds || !fitted_ || !own) return;
   if (own->x0 >= fitted_->x0 && own->y0 >= fitted_->y0 && own->x1 <= fitted_->x1 && own->y1 <= fitted_->y1) {
     return;
@@ -253,51 +254,51 @@ void TrajectorySeeds::note_of_growth() {
   print_note(
       fmt::format("{}: frame {} fills more than the picture, which shows what the first frame does because "
                   "the file is read once; give --bounds, or the file by its name",
-                  options_.trajectory, reader_.number()));
+                  options_.trajectory, number_read_));
   growth_noted_ = true;
 }
 
 Input TrajectorySeeds::plane() {
-  const Frame& frame = reader_.frame();
+  const Frame& frame = read_;
   const std::optional<Bounds> bounds = shown_bounds();
   if (!picture_) picture_ = size_of_picture(bounds);
   MappedPoints mapped{{*picture_, picture_->grid()}, {}};
   Periods periods;
-  double squares = 1;
+  Weights weights;
+  try {
+    const bool has_weights = bounds && !options_.weight_column.empty();
+    const double squares = has_weights ? pixels_of_square(*bounds, *picture_) : 1;
+    if (bounds) mapped = map_points(frame.positions, mapping_of_frame(*bounds), *picture_, frame.ids);
+    weights = weights_of(options_, frame.values, frame.ids, squares);
+  } catch (const Error& error) {
+    throw this->error(error);
+  }
   if (bounds) {
-    try {
-      if (!options_.weight_column.empty()) squares = pixels_of_square(*bounds, *picture_);
-      mapped = map_points(frame.positions, mapping_of_frame(*bounds), *picture_, frame.ids);
-    } catch (const Error& error) {
-      throw reader_.error(error);
-    }
     if (frame.box) periods = periods_in_pixels(*frame.box, *bounds, *picture_, points_up(options_));
     note_of_scales(*bounds, mapped.outside);
   }
   const std::vector<Point>& places = mapped.places;
   slots_.update(frame.ids, places);
-  const auto points = std::make_shared<std::vector<std::optional<Point>>>(slots_.size());
-  for (std::size_t i = 0; i < places.size(); ++i) (*points)[slots_.of_ids()[i]] = places[i];
+  std::vector<std::optional<Point>> points(slots_.size());
+  for (std::size_t i = 0; i < places.size(); ++i) points[slots_.of_ids()[i]] = places[i];
   // With weights the one that is heaviest has the pixels of a place, under its own slot.
-  const Weights weights = weights_of_frame(squares);
   const std::vector<std::uint32_t> by_cell = weights ? slots_.of_ids() : slots_by_cell(places, slots_);
-  Input input = {
-      mapped.view,
-      {},
-      by_slot(frame.ids, by_cell, slots_.size(), no_label),
-      {by_slot(frame.values.numbers, by_cell, slots_.size(), std::numeric_limits<double>::quiet_NaN()),
-       frame.values.texts},
-      mapped.is_window()};
-  input.points = points;
+  constexpr double none = std::numeric_limits<double>::quiet_NaN();
+  Input input = {mapped.view};
+  input.ids = by_slot(frame.ids, by_cell, slots_.size(), no_label);
+  input.values = {by_slot(frame.values.numbers, by_cell, slots_.size(), none), frame.values.texts};
+  input.is_window = mapped.is_window();
   if (weights) {
-    input.weights = std::make_shared<const std::vector<double>>(
-        by_slot(*weights, by_cell, slots_.size(), std::numeric_limits<double>::quiet_NaN()));
+    weights = std::make_shared<const std::vector<double>>(by_slot(*weights, by_cell, slots_.size(), none));
   }
-  if (window_ && *window_ != mapped.view.window) return input;
+  place_points(input, options_, std::move(points), weights);
+  const std::optional<Window> last_window = std::exchange(window_, input.view.window);
+  const auto last = std::exchange(points_, input.points);
+  if (last_window && *last_window != *window_) return input;
   double greatest = 0;
-  for (std::size_t slot = 0; points_ && slot < std::min(points->size(), points_->size()); ++slot) {
+  for (std::size_t slot = 0; last && slot < std::min(points_->size(), last->size()); ++slot) {
     // A slot that was taken holds the same particle still.
-    const std::optional<Point>&from = (*points_)[slot], &to = (*points)[slot];
+    const std::optional<Point>&from = (*last)[slot], &to = (*points_)[slot];
     if (from && to) greatest = std::max(greatest, displacement(*from, *to, periods));
   }
   input.displacement = greatest;

@@ -1,4 +1,4 @@
-#include "app/sources/volume_input.hpp"
+#include "app/sources/data_grid.hpp"
 
 #include <fmt/format.h>
 
@@ -9,10 +9,7 @@
 #include <utility>
 
 #include "app/sources/bounds.hpp"
-#include "app/sources/seed_input.hpp"
 #include "app/terminal/console.hpp"
-#include "formats/csv.hpp"
-#include "formats/values.hpp"
 
 namespace vorocl::command {
 
@@ -154,7 +151,7 @@ void note_scales(const Grid& grid) {
   }
 }
 
-View view_of_volume(const Grid& grid, bool in_pixels) {
+View view_of_grid(const Grid& grid, bool in_pixels) {
   View view = {{Size(grid.width(), grid.height()), grid.depth()}, grid};
   view.units = in_pixels ? Units::of_voxels(grid) : Units(grid, has_scale(grid));
   const Bounds bounds = {grid.x().from(), grid.y().from(), grid.x().to(),
@@ -164,45 +161,6 @@ View view_of_volume(const Grid& grid, bool in_pixels) {
 }
 
 namespace {
-
-Input input_from_points(const SeedOptions& options) {
-  CsvPoints read = read_points(options, true);
-  try {
-    const Bounds box = bounding_box(read.points, true);  // of finite points
-    const Axes periodic = options.periodic.value_or(Axes::none);
-    const Grid grid = with_voxels(options, grid_of(options, sides_of(options.bounds.value_or(box)), periodic),
-                                  Axis::max_spacing);
-    check_inside(read.points, read.ids, grid);
-    if (options.size) {
-      warn_of_voxels(grid, "");
-      note_scales(grid);
-    }
-    if (!options.bounds && periodic != Axes::none) {
-      print_note("the periods are those of the points' bounding box; --bounds says others");
-    }
-    const Weights weights = weights_of(options, read.values, read.ids);
-    Input input = {
-        view_of_volume(grid, in_pixels(options)),
-        [grid, weights, points = std::move(read.points), snap = options.snapping()](const Device& device) {
-          return Seeds(device, grid, weighted(points, weights), {Outside::refuse, snap});
-        },
-        std::move(read.ids)};
-    input.kept = {std::move(read.kept_names), std::move(read.kept)};
-    input.values = std::move(read.values);
-    return input;
-  } catch (const Error& error) {
-    throw Error(options.points + ": " + error.what());
-  }
-}
-
-Input input_at_random(const SeedOptions& options) {
-  const Grid grid = options.grid();
-  return {view_of_volume(grid, true),
-          [grid, count = options.random, seed = options.rng_seed](const Device& device) {
-            return Seeds::random(device, grid, count, seed);
-          },
-          {}};
-}
 
 /// What the volume of a frame shows: see grid_of_frame() for `all`.
 std::array<Side, 3> sides_of_frame(const SeedOptions& options, const Frame& frame,
@@ -231,8 +189,25 @@ std::array<Side, 3> sides_of_frame(const SeedOptions& options, const Frame& fram
 
 }  // namespace
 
-Grid grid_of_frame(const SeedOptions& options, const Frame& frame, const std::vector<Point>& points,
-                   const std::optional<Bounds>& all) {
+Grid box_of_points(const SeedOptions& options, const std::vector<Point>& points,
+                   const std::vector<std::uint32_t>& ids) {
+  const Bounds box = bounding_box(points, true);  // of finite points
+  const Axes periodic = options.periodic.value_or(Axes::none);
+  Grid grid = with_voxels(options, grid_of(options, sides_of(options.bounds.value_or(box)), periodic),
+                          Axis::max_spacing);
+  check_inside(points, ids, grid);
+  if (options.size) {
+    warn_of_voxels(grid, "");
+    note_scales(grid);
+  }
+  if (!options.bounds && periodic != Axes::none) {
+    print_note("the periods are those of the points' bounding box; --bounds says others");
+  }
+  return grid;
+}
+
+Grid box_of_frame(const SeedOptions& options, const Frame& frame, const std::vector<Point>& points,
+                  const std::optional<Bounds>& all) {
   const Axes of_file = frame.box ? periodic_axes(*frame.box, true) : Axes::none;
   const Axes periodic = options.periodic.value_or(of_file);
   Grid grid =
@@ -250,36 +225,58 @@ Grid grid_of_frame(const SeedOptions& options, const Frame& frame, const std::ve
   return grid;
 }
 
-void refuse_in_volumes(const std::string& option) {
-  throw UsageError(option + " is for planes, not for volumes");
+namespace {
+
+/// `repeats` is what does along the periodic axes, with a tilt: bounds that are given must be the same there.
+Grid rectangle_of(const SeedOptions& options, const Bounds& repeats, Axes periodic, const char* name,
+                  double tilt = 0) {
+  const Bounds& shown = options.bounds ? *options.bounds : repeats;
+  const bool parts_x = has_x(periodic) && (shown.x0 != repeats.x0 || shown.x1 != repeats.x1);
+  const bool parts_y = has_y(periodic) && (shown.y0 != repeats.y0 || shown.y1 != repeats.y1);
+  if (parts_x || parts_y) {
+    throw Error(fmt::format("--exact cuts whole periods: along a periodic axis --bounds {} must be {}, {}",
+                            to_string(shown), name, to_string(repeats)));
+  }
+  check_bounds(shown, periodic);
+  const bool closed = (!options.bounds && !options.domain) || options.outside == Outside::refuse;
+  return Grid(data_axis(1, shown.x0, shown.x1, has_x(periodic), closed),
+              data_axis(1, shown.y0, shown.y1, has_y(periodic), closed))
+      .tilted(tilt);
 }
 
-void check_volume_options(const SeedOptions& options) {
-  check_weight_options(options);
-  const char* const of_planes = !options.mask.empty()           ? "--mask"
-                                : options.width != 0            ? "--width"
-                                : options.outside               ? "--outside"
-                                : options.y_up                  ? "--y-up"
-                                : options.y_down                ? "--y-down"
-                                : options.margin > 0            ? "--margin"
-                                : !options.value_column.empty() ? "--color column:NAME"
-                                                                : nullptr;
-  if (of_planes != nullptr) refuse_in_volumes(of_planes);
-  if (options.domain) throw UsageError("--domain is for planes; the periods of a volume are its --bounds");
-  const char* const of_data = option_of_data(options);
-  if (of_data != nullptr && options.random > 0) {
-    throw UsageError(std::string(of_data) + " needs --points or --trajectory");
-  }
-  if (options.bounds && !options.bounds->is_box()) {
-    throw UsageError("the --bounds of a volume are six numbers: X0,Y0,Z0,X1,Y1,Z1");
-  }
-  if (options.columns && options.columns->z.empty()) {
-    throw UsageError("the --columns of a volume are three: X,Y,Z");
-  }
+void note_points(const SeedOptions& options, const Grid& grid, const std::vector<Point>& points) {
+  if (options.outside == Outside::refuse) return;
+  const auto is_outside = [&](const Point& point) {
+    return !grid.x().covers(point.x) || !grid.y().covers(point.y);
+  };
+  note_outside(static_cast<std::size_t>(std::count_if(points.begin(), points.end(), is_outside)),
+               points.size(), {grid.x().from(), grid.y().from(), grid.x().to(), grid.y().to()});
 }
 
-Input read_volume_input(const SeedOptions& options) {
-  return options.random > 0 ? input_at_random(options) : input_from_points(options);
+}  // namespace
+
+Grid rectangle_of_points(const SeedOptions& options, const std::vector<Point>& points) {
+  const Bounds repeats = options.domain   ? *options.domain
+                         : options.bounds ? *options.bounds
+                                          : widened(bounding_box(points), options.margin);
+  Grid grid = rectangle_of(options, repeats, options.periodic.value_or(Axes::none), "the domain");
+  note_points(options, grid, points);
+  return grid;
+}
+
+Grid rectangle_of_frame(const SeedOptions& options, const Frame& frame, bool is_first) {
+  const std::optional<Bounds> filled = bounds_of(frame);
+  if (!filled && !options.bounds) throw Error("it has neither a box nor particles: give --bounds");
+  const Axes periodic = options.periodic.value_or(frame.box ? periodic_axes(*frame.box, false) : Axes::none);
+  const double tilt = frame.box ? frame.box->tilt : 0;
+  if (tilt != 0 && periodic != Axes::xy) {
+    throw Error(
+        "the box is tilted: --exact cuts it as periodic in x and y, so leave --periodic out, or give "
+        "--periodic xy");
+  }
+  Grid grid = rectangle_of(options, filled ? *filled : *options.bounds, periodic, "the box", tilt);
+  if (is_first) note_points(options, grid, frame.positions);
+  return grid;
 }
 
 }  // namespace vorocl::command
