@@ -4,8 +4,10 @@
 #   tools/gpu_report.sh --with FOLDER                    measures all pieces and writes output/gpu.json and output/gpu.md
 #   tools/gpu_report.sh --with FOLDER --piece still      one piece. Each takes at most 8 minutes; one that is cut off, or says
 #                                                        that there is more to do, goes on where it was when it is run again
-# The pieces: check (known diagrams and the core's tests), still, moving, hurtful (times, and labels by their hashes), kernels
-# (the time of each kernel), cupy (CuPy's distance transform beside them). tools/checks/gpu/report.py has the other options.
+# The pieces: check (known diagrams and the core's tests), still (seeds at centres of pixels, points, points that crowd, volumes,
+# masks), moving (seeds, and points from a device's buffer), hurtful (sets of seeds), all with times and labels by their hashes,
+# kernels (the time of each kernel), cupy (CuPy's distance transform of the same seeds and masks beside them).
+# tools/checks/gpu/report.py has the other options.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 

@@ -1,24 +1,30 @@
 // Measures one case on a device and prints it as JSON, for tools/gpu_report.sh:
-//   measure device                        what the device is
-//   measure check                         which known diagrams it gets wrong
-//   measure still SIDE SEEDS MS           jfa, djfa and exact of seeds that stand still
-//   measure moving SIDE SEEDS MS FRAMES   the same of seeds that move by up to a pixel a frame and axis
-//   measure kernels SIDE SEEDS MS         the time of every kernel of these methods
-// SEEDS is a number of random seeds or an .npy file of points in pixels. Each method runs for MS
-// milliseconds, after others to warm up; for 0 it runs once, for its labels. VOROCL_DEVICE names the device.
-// It links the library's core alone.
+//   measure device                          what the device is
+//   measure check                           which known diagrams it gets wrong
+//   measure still SIDES SOURCE MS           each method on seeds that stand still, or on a mask
+//   measure moving SIDES SOURCE MS FRAMES   the same of seeds that move by up to a pixel a frame and axis
+//   measure kernels SIDES SOURCE MS         the time of every kernel of these methods
+// SIDES are those of a grid: 2048, 600x300 or 256x256x256. SOURCE is a number of random seeds or a file:
+//   .npy      pairs of doubles in pixels, of seeds at the centres of their pixels
+//   .points   triples of doubles in pixels, of the points themselves: exact and jfa
+//   .mask     a byte per pixel, whose zeros are marked: its distance transform goes by the name of exact
+// Each method runs for MS milliseconds, after others to warm up; for 0 it runs once, for its labels.
+// VOROCL_DEVICE names the device. It links the library's core alone.
 #include <dlfcn.h>
 
 #include <algorithm>
 #include <chrono>
 #include <cinttypes>
+#include <cmath>
 #include <cstdio>
 #include <cstring>
 #include <fstream>
 #include <functional>
 #include <map>
 #include <memory>
+#include <numeric>
 #include <optional>
+#include <random>
 #include <sstream>
 
 #include "checks/known_answers.hpp"
@@ -74,12 +80,34 @@ std::string list(const std::vector<std::string>& values) {
   return "[" + text + "]";
 }
 
-// --- seeds and labels ---
+// --- sources, labels ---
 
-/// The points of an .npy file of version 1: pairs of little-endian doubles behind a header.
-std::vector<Point> points_of(const std::string& path) {
+std::string extension_of(const std::string& source) { return source.substr(source.rfind('.') + 1); }
+bool is_between_centres(const std::string& source) { return extension_of(source) == "points"; }
+
+Grid grid_of(const std::string& sides) {
+  std::vector<int> pixels;
+  for (const auto side : command::parts_of(sides, 'x'))
+    pixels.push_back(command::parse_number<int>(side).value());
+  return {pixels[0], pixels.size() > 1 ? pixels[1] : pixels[0], pixels.size() > 2 ? pixels[2] : 1};
+}
+
+std::string bytes_of(const std::string& path) {
   std::ifstream file(path, std::ios::binary);
-  const std::string bytes((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());
+  if (!file) throw Error(path + " cannot be read");
+  return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+}
+
+/// The points of an .npy file of version 1, pairs of little-endian doubles behind a header, or of a .points
+/// file.
+std::vector<Point> points_of(const std::string& path) {
+  const std::string bytes = bytes_of(path);
+  std::vector<Point> points;
+  if (is_between_centres(path)) {
+    points.resize(bytes.size() / sizeof(Point));
+    std::memcpy(points.data(), bytes.data(), points.size() * sizeof(Point));
+    return points;
+  }
   constexpr std::size_t preamble = 10;
   if (bytes.size() < preamble) throw Error(path + " is no .npy file");
   const std::size_t begin = preamble + static_cast<unsigned char>(bytes[8]) +
@@ -87,15 +115,15 @@ std::vector<Point> points_of(const std::string& path) {
   if (bytes.substr(0, begin).find("<f8") == std::string::npos) throw Error(path + " holds no doubles");
   std::vector<double> pairs((bytes.size() - begin) / sizeof(double));
   std::memcpy(pairs.data(), bytes.data() + begin, pairs.size() * sizeof(double));
-  std::vector<Point> points;
   for (std::size_t i = 0; i + 1 < pairs.size(); i += 2) points.push_back({pairs[i], pairs[i + 1]});
   return points;
 }
 
 Seeds make_seeds(const Device& device, const Grid& grid, const std::string& source) {
-  const auto count = command::parse_number<std::size_t>(source);
-  return count ? Seeds::random(device, grid, *count, 1)
-               : Seeds(device, grid, points_of(source), {Outside::refuse, Snap::to_pixels});
+  if (const auto count = command::parse_number<std::size_t>(source))
+    return Seeds::random(device, grid, *count, 1);
+  const Snap snap = is_between_centres(source) ? Snap::none : Snap::to_pixels;
+  return {device, grid, points_of(source), {Outside::refuse, snap}};
 }
 
 std::string hash_of(const Labels& labels) {
@@ -104,31 +132,26 @@ std::string hash_of(const Labels& labels) {
   return hexadecimal(hash.value());
 }
 
-std::string hash_of(const Seeds& seeds) {
+/// Of pixels, or of positions between their centres.
+std::string hash_of(const Seeds& seeds, const std::string& source) {
+  const double units = is_between_centres(source) ? 4096 : 1;  // in a pixel
   Hash hash;
-  for (const std::optional<Point>& pixel : seeds.read_pixels()) {
-    hash.add(static_cast<std::uint32_t>(pixel.value().x));
-    hash.add(static_cast<std::uint32_t>(pixel.value().y));
+  for (const std::optional<Point>& position : seeds.read_pixels()) {
+    hash.add(static_cast<std::uint32_t>(position.value().x * units));
+    hash.add(static_cast<std::uint32_t>(position->y * units));
+    if (seeds.grid().is_volume()) hash.add(static_cast<std::uint32_t>(position->z * units));
   }
   return hexadecimal(hash.value());
 }
 
-/// The pixels whose seed is farther than that of the true label.
-std::size_t wrong_pixels(const Seeds& seeds, const Labels& labels, const Labels& truth) {
-  const std::vector<std::optional<Point>> pixels = seeds.read_pixels();
-  const auto width = static_cast<std::size_t>(seeds.grid().width());
-  const auto squared = [&](std::size_t i, std::uint32_t label) {
-    const std::size_t x = i % width, y = i / width;
-    const double dx = pixels.at(label)->x - (static_cast<double>(x) + 0.5);
-    const double dy = pixels.at(label)->y - (static_cast<double>(y) + 0.5);
-    return dx * dx + dy * dy;
-  };
-  std::size_t wrong = 0;
-  for (std::size_t i = 0; i < labels.size(); ++i) {
-    if (labels[i] == truth[i]) continue;
-    wrong += labels[i] == no_label || squared(i, labels[i]) > squared(i, truth[i]) ? 1 : 0;
-  }
-  return wrong;
+/// The pixels whose seed is farther than the nearest one.
+std::size_t wrong_pixels(const Seeds& seeds, const Diagram& diagram) {
+  Diagram labels(seeds.device(), seeds.grid()), exact(seeds.device(), seeds.grid());
+  labels.write(diagram.labels(), seeds, Metric::euclidean);
+  exact_diagram(seeds, exact);
+  DistanceErrorsResult result;
+  distance_errors(labels, exact, result);
+  return result.read().wrong_pixels;
 }
 
 // --- times ---
@@ -142,10 +165,11 @@ std::string median_and_least(std::vector<double> values) {
   return object({{"median", number(values[values.size() / 2])}, {"least", number(values.front())}});
 }
 
-/// What is timed, and what has to be done before each run of it.
+/// What is timed, what has to be done before each run of it, and what is to be told of the last one's labels.
 struct Subject {
   std::function<void()> prepare;
   std::function<double()> run;  // enqueues, waits, and returns the time by the device's events
+  std::function<Members()> judge;
 };
 
 /// Runs for so many milliseconds; returns how often, and the times per `share` of a run.
@@ -176,16 +200,24 @@ Members times_of(const Device& device, const Subject& subject, double budget, in
           {"event_ms", median_and_least(events)}};
 }
 
-constexpr const char* method_names[] = {"exact", "jfa", "djfa"};  // the first one judges the others
+/// The last one makes seeds move by whole pixels.
+std::vector<std::string> methods_of(const std::string& source) {
+  if (is_between_centres(source)) return {"exact", "jfa"};
+  return {"exact", "jfa", "djfa"};
+}
 
 /// A method on seeds that stand still. dJFA goes on from the JFA of the seeds a random step away.
 Subject still_subject(const Method& method, const Seeds& seeds, Diagram& diagram) {
+  const auto judge = [&seeds, &diagram]() -> Members {
+    return {{"labels", hash_of(diagram.read())},
+            {"wrong_pixels", std::to_string(wrong_pixels(seeds, diagram))}};
+  };
   const auto run = [&method, &seeds, &diagram] {
     const Report report = method.run(seeds, diagram, {});
     diagram.wait();
     return report.milliseconds();
   };
-  if (!method.continues) return {[] {}, run};
+  if (!method.continues) return {[] {}, run, judge};
   const auto moving = std::make_shared<Seeds>(seeds.clone());
   const auto now = seeds.read();
   random_step(*moving, 5, Border::reflect, 1, 0);
@@ -200,41 +232,93 @@ Subject still_subject(const Method& method, const Seeds& seeds, Diagram& diagram
     diagram.wait();
     return report.milliseconds();
   };
-  return {prepare, go_on};
+  return {prepare, go_on, judge};
 }
 
-std::string still(const Device& device, int side, const std::string& source, double budget) {
-  const Grid grid(side, side);
+using Measure = std::function<std::string(const Subject&)>;
+
+std::string measured_mask(const Device& device, const Grid& grid, const std::string& source,
+                          const Measure& measure) {
+  std::string mask = bytes_of(source);
+  std::vector<float> found(mask.size());
+  const cl::Buffer pixels(device.context(), mask.begin(), mask.end(), true);
+  const cl::Buffer distances(device.context(), found.begin(), found.end(), false);
+  DistanceTransform transform(device, grid);
+  TransformTargets targets;
+  targets.distances = {distances, PixelType::float32};
+  const auto run = [&] {
+    const Report report = transform.run({pixels, PixelType::uint8}, targets);
+    device.finish();
+    return report.milliseconds();
+  };
+  const auto judge = [&]() -> Members {
+    cl::copy(device.queue(), distances, found.begin(), found.end());
+    Labels squares;
+    for (const double distance : found)
+      squares.push_back(static_cast<std::uint32_t>(std::lround(distance * distance)));
+    const auto sum = std::accumulate(squares.begin(), squares.end(), std::uint64_t{0});
+    return {{"labels", hash_of(squares)}, {"squares", std::to_string(sum)}};
+  };
+  Hash hash;
+  hash.add_text(mask);
+  return object({{"seed_count", std::to_string(std::count(mask.begin(), mask.end(), 0))},
+                 {"seeds", hexadecimal(hash.value())},
+                 {"methods", object({{"exact", measure({[] {}, run, judge})}})}});
+}
+
+/// What is measured of each method.
+std::string measured(const Device& device, const Grid& grid, const std::string& source,
+                     const Measure& measure) {
+  if (extension_of(source) == "mask") return measured_mask(device, grid, source, measure);
   const Seeds seeds = make_seeds(device, grid, source);
   Diagram diagram(device, grid);
-  Labels truth;
   Members methods;
-  for (const char* const name : method_names) {
-    Members found = times_of(device, still_subject(method(name), seeds, diagram), budget);
-    const Labels labels = diagram.read();
-    if (truth.empty()) truth = labels;
-    found.emplace_back("labels", hash_of(labels));
-    found.emplace_back("wrong_pixels", std::to_string(wrong_pixels(seeds, labels, truth)));
-    methods.emplace_back(name, object(found));
+  for (const std::string& name : methods_of(source)) {
+    methods.emplace_back(name, measure(still_subject(method(name), seeds, diagram)));
   }
   return object({{"seed_count", std::to_string(seeds.alive())},
-                 {"seeds", hash_of(seeds)},
+                 {"seeds", hash_of(seeds, source)},
                  {"methods", object(methods)}});
+}
+
+std::string still(const Device& device, const Grid& grid, const std::string& source, double budget) {
+  return measured(device, grid, source, [&](const Subject& subject) {
+    Members found = times_of(device, subject, budget);
+    for (auto& member : subject.judge()) found.push_back(std::move(member));
+    return object(found);
+  });
+}
+
+/// Random steps; or from points to others and back, which both lie in buffers of the device.
+Simulation::Motion motion_of(const Device& device, const std::string& source) {
+  if (!is_between_centres(source)) {
+    return [](Seeds& moved, Window&, int frame) {
+      random_step(moved, step_length, Border::reflect, 1, static_cast<std::uint32_t>(frame));
+    };
+  }
+  std::vector<Point> points = points_of(source);
+  const cl::Buffer first(device.context(), points.begin(), points.end(), true);
+  std::mt19937_64 random(1);  // the same numbers with every standard library
+  const auto step = [&] { return step_length * static_cast<double>(random() >> 11) * 0x1p-53; };
+  for (Point& point : points) point = {std::abs(point.x - step()), std::abs(point.y - step()), point.z};
+  const cl::Buffer moved(device.context(), points.begin(), points.end(), true);
+  return [first, moved, count = points.size()](Seeds& seeds, Window&, int frame) {
+    seeds.move_to(PointBuffer(frame % 2 == 0 ? moved : first, count, PointFormat::doubles_xyz));
+  };
 }
 
 /// Frames 1 to `frames`, each from the one before; their times are per frame, and that on the wall has the
 /// motion.
-std::string moving(const Device& device, int side, const std::string& source, double budget, int frames) {
-  const Grid grid(side, side);
+std::string moving(const Device& device, const Grid& grid, const std::string& source, double budget,
+                   int frames) {
   const Seeds seeds = make_seeds(device, grid, source);
+  const Simulation::Motion motion = motion_of(device, source);
   std::string seeds_at_end;
   Members methods;
-  for (const char* const name : method_names) {
+  for (const std::string& name : methods_of(source)) {
     std::optional<Simulation> simulation;
     const auto prepare = [&] {
-      simulation.emplace(seeds.clone(), [](Seeds& moved, Window&, int frame) {
-        random_step(moved, step_length, Border::reflect, 1, static_cast<std::uint32_t>(frame));
-      });
+      simulation.emplace(seeds.clone(), motion);
       simulation->add_engine(engine(method(name)));
       simulation->step();
     };
@@ -243,9 +327,9 @@ std::string moving(const Device& device, int side, const std::string& source, do
       device.finish();
       return simulation->milliseconds();
     };
-    Members found = times_of(device, {prepare, run}, budget, frames);
+    Members found = times_of(device, {prepare, run, {}}, budget, frames);
     found.emplace_back("labels", hash_of(simulation->diagram().read()));
-    seeds_at_end = hash_of(simulation->seeds());
+    seeds_at_end = hash_of(simulation->seeds(), source);
     methods.emplace_back(name, object(found));
   }
   return object(
@@ -304,15 +388,8 @@ std::string kernels_of(const Device& device, const Subject& subject, double budg
   return list(found);
 }
 
-std::string kernels(const Device& device, int side, const std::string& source, double budget) {
-  const Grid grid(side, side);
-  const Seeds seeds = make_seeds(device, grid, source);
-  Diagram diagram(device, grid);
-  Members methods;
-  for (const char* const name : method_names) {
-    methods.emplace_back(name, kernels_of(device, still_subject(method(name), seeds, diagram), budget));
-  }
-  return object({{"seed_count", std::to_string(seeds.alive())}, {"methods", object(methods)}});
+std::string kernels(const Device& device, const Grid& grid, const std::string& source, double budget) {
+  return measured(device, grid, source, [&](const Subject& s) { return kernels_of(device, s, budget); });
 }
 
 // --- the device ---
@@ -345,13 +422,13 @@ std::string measure(const Device& device, const std::vector<std::string>& argume
   const std::string& what = arguments.at(0);
   if (what == "device") return describe(device);
   if (what == "check") return check_known_answers(device);
-  const int side = command::parse_number<int>(arguments.at(1)).value();
+  const Grid grid = grid_of(arguments.at(1));
   const std::string& source = arguments.at(2);
   const double budget = command::parse_number<double>(arguments.at(3)).value();
-  if (what == "still") return still(device, side, source, budget);
-  if (what == "kernels") return kernels(device, side, source, budget);
+  if (what == "still") return still(device, grid, source, budget);
+  if (what == "kernels") return kernels(device, grid, source, budget);
   if (what == "moving")
-    return moving(device, side, source, budget, command::parse_number<int>(arguments.at(4)).value());
+    return moving(device, grid, source, budget, command::parse_number<int>(arguments.at(4)).value());
   throw Error("there is nothing to measure called \"" + what + "\"");
 }
 
@@ -367,7 +444,9 @@ extern "C" __attribute__((visibility("default"))) cl_int CL_API_CALL clEnqueueND
   cl_event* const out = event != nullptr ? event : &own();
   const cl_int code = next(queue, kernel, dimensions, offset, global, local, count, waits, out);
   if (code != CL_SUCCESS || launches == nullptr) return code;
-  const auto product = [&](const size_t* sizes) { return dimensions == 1 ? sizes[0] : sizes[0] * sizes[1]; };
+  const auto product = [&](const size_t* sizes) {
+    return std::accumulate(sizes, sizes + dimensions, std::size_t{1}, std::multiplies<>());
+  };
   launches->push_back({name_of(kernel), product(global), local != nullptr ? product(local) : 0,
                        event != nullptr ? cl::Event(*event, true) : own});
   return code;
