@@ -36,13 +36,6 @@ BOOST_AUTO_TEST_CASE(every_level_has_help) {
     BOOST_TEST(help.find("[]") == std::string::npos, help);
   }
   BOOST_TEST(succeeds(folder, "--version") == "vorocl " VOROCL_VERSION "\n");
-  // Without --bounds: one frame shows its own box, and a film what --fit says.
-  for (const char* subcommand : {"render", "cells", "relax", "compare", "bench", "simulate"}) {
-    const std::string help = succeeds(folder, subcommand + std::string(" --help"));
-    const bool has_fit = help.find("else what --fit says of a trajectory") != std::string::npos;
-    BOOST_TEST(has_fit == (subcommand == std::string("simulate")), help);
-    BOOST_TEST(has_fit == (help.find("the box of a trajectory's frame") == std::string::npos), help);
-  }
 }
 
 BOOST_AUTO_TEST_CASE(help_has_sections_with_the_common_ones_first) {
@@ -56,17 +49,6 @@ BOOST_AUTO_TEST_CASE(help_has_sections_with_the_common_ones_first) {
     const std::size_t found = help.find("\n" + line, at);
     BOOST_TEST_REQUIRE(found != std::string::npos, line << " is not behind the others in\n" << help);
     at = found;
-  }
-}
-
-BOOST_AUTO_TEST_CASE(subcommands_that_have_left_say_where_they_are) {
-  const TemporaryFolder folder;
-  for (const std::string subcommand : {"evaluate", "ablation"}) {
-    for (const char* options : {"", " -o t.csv", " --help"}) {
-      refuses(folder, subcommand + options, usage,
-              {fmt::format("vorocl {0} is now tools/studies/study.py {0}, in the source of VoroCL\n",
-                           subcommand)});
-    }
   }
 }
 
@@ -334,14 +316,6 @@ BOOST_AUTO_TEST_CASE(bench_judges_every_method) {
     BOOST_TEST(results[i].at("method") == names[i]);
     BOOST_TEST(results[i].at("min_ms").get<double>() > 0);
     BOOST_TEST(results[i].at("median_ms").get<double>() >= results[i].at("min_ms").get<double>());
-  }
-  const json tiles = json::parse(succeeds(folder, arguments + " --tile 70 --json")).at("results");
-  BOOST_REQUIRE(tiles.size() == 6u);
-  const char* const names_on_host[] = {"exact, host to host", "exact, tiles of 70"};
-  for (std::size_t i = 0; i < 2; ++i) {
-    BOOST_TEST(tiles[4 + i].at("method") == names_on_host[i]);
-    BOOST_TEST(tiles[4 + i].at("min_ms").get<double>() > 0);
-    BOOST_TEST(tiles[4 + i].at("wrong_pixels") == 0);
   }
   // Against the labels that render writes, judged by brute force.
   succeeds(folder, "render --size 300x200 --random 500 --method jfa --labels a.npy");

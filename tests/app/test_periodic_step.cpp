@@ -23,8 +23,8 @@ BOOST_AUTO_TEST_CASE(steps_go_the_shorter_way_round) {
   const auto step = [&](const Box& box, Point from, Point to, bool y_up = false) {
     return displacement(from, to, periods_in_pixels(box, bounds, picture, y_up));
   };
-  const Box walls{0, 0, 10, 5, false, false, 0}, x_periodic{0, 0, 10, 5, true, false, 0},
-      periodic{0, 0, 10, 5, true, true, 0}, tilted{0, 0, 10, 5, true, true, 3};
+  const Box walls{bounds, false, false, false, 0}, x_periodic{bounds, true, false, false, 0},
+      periodic{bounds, true, true, false, 0}, tilted{bounds, true, true, false, 3};
   BOOST_TEST(step(walls, {1.5, 2.5}, {98.5, 47.5}) == 97);
   BOOST_TEST(step(x_periodic, {1.5, 2.5}, {98.5, 47.5}) == 45);
   BOOST_TEST(step(periodic, {1.5, 2.5}, {98.5, 47.5}) == 5);

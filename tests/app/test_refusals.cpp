@@ -129,7 +129,6 @@ BOOST_AUTO_TEST_CASE(bad_options_are_usage_errors) {
   refuses(folder, render + "--size 10x10 --neighbourhood hex", usage, {"hex", "von-neumann"});
   refuses(folder, "bench --random 5 --size 10x10 --methods jfa,jfb", usage, {"jfb", "opencv"});
   refuses(folder, "bench --random 5 --size 10x10 --methods jfa --repeat 0", usage, {"--repeat"});
-  refuses(folder, "bench --random 5 --size 10x10 --methods jfa --tile 0", usage, {"--tile"});
 }
 
 BOOST_AUTO_TEST_CASE(a_file_without_its_option_is_answered_with_it) {

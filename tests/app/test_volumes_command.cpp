@@ -287,7 +287,6 @@ BOOST_AUTO_TEST_CASE(what_volumes_do_not_have_is_refused) {
   refuses(folder, bench + "jfa,opencv", usage, {"opencv is for planes; volumes have"});
   refuses(folder, bench + "jfa,exact --metric manhattan", usage,
           {"are Euclidean", "jump flooding takes --metric"});
-  refuses(folder, bench + "jfa --tile 4", usage, {"--tile is for planes"});
   refuses(folder, bench + "jfa --no-snap", usage, {"--no-snap needs --points or --trajectory"});
   folder.file("points.npy", command::npy_header<std::uint32_t>({1, 3}) + std::string(12, '\1'));
   refuses(folder, "render --points points.npy --size 8x8 --labels a.npy", failure,

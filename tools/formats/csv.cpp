@@ -253,23 +253,16 @@ CsvFields other_names(CsvFields names, const std::vector<std::string>& others) {
   return names;
 }
 
-namespace {
-
-Columns columns_of(const std::string& text, std::size_t most, const std::string& what) {
+Columns parse_columns(const std::string& text, bool of_volumes) {
   std::vector<std::string> names;
   for (const std::string_view part : parts_of(text, ',')) names.emplace_back(trimmed(part));
   const bool some_empty = std::find(names.begin(), names.end(), "") != names.end();
-  if (names.size() < 2 || names.size() > most || some_empty) {
-    throw Error("\"" + text + "\" must be two columns, such as x,y or 0,1" + what);
+  if (names.size() < 2 || names.size() > (of_volumes ? 3 : 2) || some_empty) {
+    throw Error("\"" + text + "\" must be two columns, such as x,y or 0,1" +
+                (of_volumes ? ", or three of a volume" : ""));
   }
   return {names[0], names[1], names.size() > 2 ? names[2] : ""};
 }
-
-}  // namespace
-
-Columns parse_columns(const std::string& text) { return columns_of(text, 2, ""); }
-
-Columns parse_columns_and_z(const std::string& text) { return columns_of(text, 3, ", or three of a volume"); }
 
 CsvReader::CsvReader(const std::string& path, CsvOptions options, bool has_z)
     : path_(path), options_(std::move(options)), lines_(path), has_z_(has_z) {}

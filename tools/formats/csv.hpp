@@ -33,11 +33,8 @@ struct Columns {
   std::string z = {};  ///< of a volume; else empty
 };
 
-/// "x,y" to columns. Throws Error unless these are two names.
-Columns parse_columns(const std::string& text);
-
-/// The same where volumes have "x,y,z".
-Columns parse_columns_and_z(const std::string& text);
+/// "x,y" to columns, or "x,y,z" where there are volumes. Throws Error unless these are so many names.
+Columns parse_columns(const std::string& text, bool of_volumes = false);
 
 /// What is asked for of a file.
 struct CsvOptions {

@@ -187,8 +187,6 @@ class VtkArrays {
   /// The file, of such a kind, with a piece of such sizes and elements.
   void write(GrowingFile& file, const char* kind, const std::string& sizes,
              const std::string& elements) const {
-    const std::uint16_t one = 1;
-    const bool is_little = *reinterpret_cast<const unsigned char*>(&one) == 1;
     file << fmt::format(
         R"(<?xml version="1.0"?>
 <VTKFile type="{0}" version="1.0" byte_order="{1}" header_type="UInt64">
@@ -199,7 +197,7 @@ class VtkArrays {
   </{0}>
   <AppendedData encoding="raw">
     _)",
-        kind, is_little ? "LittleEndian" : "BigEndian", sizes, elements);
+        kind, byte_order(), sizes, elements);
     file.write(bytes_.data(), bytes_.size());
     file << "\n  </AppendedData>\n</VTKFile>\n";
   }

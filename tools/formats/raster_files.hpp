@@ -54,6 +54,9 @@ template <typename T>
 void write_vti(const OutputFile& file, const std::string& name, const Raster& raster,
                const std::vector<T>& values);
 
+/// The host's, as files of VTK name it.
+const char* byte_order();
+
 /// A text as an attribute of XML.
 std::string escaped(const std::string& text);
 

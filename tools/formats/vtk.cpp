@@ -15,12 +15,12 @@ std::string vtk_type() {
   return (std::is_floating_point_v<T> ? "Float" : "UInt") + std::to_string(8 * sizeof(T));
 }
 
+}  // namespace
+
 const char* byte_order() {
   const std::uint16_t one = 1;
   return *reinterpret_cast<const unsigned char*>(&one) == 1 ? "LittleEndian" : "BigEndian";
 }
-
-}  // namespace
 
 std::string escaped(const std::string& text) {
   std::string result;

@@ -1,13 +1,10 @@
 #include "app/bench/benchmark.hpp"
 
-#include <algorithm>
 #include <functional>
 #include <memory>
 
 #include "app/terminal/samples.hpp"
-#include "vorocl/exact_diagram.hpp"
 #include "vorocl/motion.hpp"
-#include "vorocl/tiles.hpp"
 
 namespace vorocl::command {
 
@@ -70,41 +67,6 @@ Contender contender(const Method& method, const Seeds& seeds, Diagram& diagram,
                           : other_method(method, seeds, diagram, options);
 }
 
-/// From seeds on the host to labels on the host.
-Contender exact_on_host(const Seeds& seeds, Diagram& diagram, Metric metric, Snap snap) {
-  const auto labels = std::make_shared<std::vector<std::uint32_t>>(diagram.window().pixels());
-  const auto run = [&seeds, points = seeds.read(), &diagram, metric, snap, labels] {
-    const Seeds placed(seeds.device(), seeds.grid(), points, {Outside::count, snap});
-    exact_diagram(placed, diagram, {metric});
-    diagram.read(labels->data());
-  };
-  return {"exact, host to host", [] {}, run, [labels] { return *labels; }};
-}
-
-/// From seeds on the host, which are sorted, to labels on the host, which are there for each tile in turn.
-Contender exact_in_tiles(const Seeds& seeds, int side, Metric metric, Snap snap) {
-  const auto sorted =
-      std::make_shared<PlaneSeeds>(seeds.grid(), seeds.read(), SeedsOptions{Outside::count, snap});
-  sorted->sort();
-  const auto each_tile = [device = seeds.device(), tiling = Tiling(seeds.grid(), side), metric,
-                          sorted](const std::function<void(const TileLabels&)>& use) {
-    exact_tiles(device, *sorted, tiling, use, {metric});
-  };
-  const auto labels = [grid = seeds.grid(), each_tile] {
-    std::vector<std::uint32_t> all(grid.pixels());
-    each_tile([&](const TileLabels& made) {
-      const Window& tile = made.tile;
-      for (std::int64_t y = 0; y < tile.height(); ++y) {
-        std::copy_n(made.labels + y * tile.width(), tile.width(),
-                    all.begin() + (tile.y() + y) * grid.width() + tile.x());
-      }
-    });
-    return all;
-  };
-  const auto run = [each_tile] { each_tile([](const TileLabels&) {}); };
-  return {"exact, tiles of " + std::to_string(side), [] {}, run, labels};
-}
-
 double milliseconds_of(const Contender& contender) {
   contender.prepare();
   const Stopwatch stopwatch;
@@ -123,15 +85,10 @@ std::vector<BenchmarkResult> benchmark(const std::vector<Method>& methods, const
                                        const Seeds& seeds) {
   Diagram diagram(seeds.device(), seeds.grid());
   std::vector<Contender> contenders;
-  contenders.reserve(methods.size() + 2);
+  contenders.reserve(methods.size());
   for (const Method& method : methods)
     contenders.push_back(contender(method, seeds, diagram, options.method));
-  const Metric metric = options.method.metric;
-  if (options.tile > 0) {
-    contenders.push_back(exact_on_host(seeds, diagram, metric, options.truth));
-    contenders.push_back(exact_in_tiles(seeds, options.tile, metric, options.truth));
-  }
-  const GroundTruth truth(seeds.grid(), seeds.read_pixels(), metric);
+  const GroundTruth truth(seeds.grid(), seeds.read_pixels(), options.method.metric);
   std::vector<BenchmarkResult> results;
   for (const Contender& contender : contenders) {
     contender.prepare();

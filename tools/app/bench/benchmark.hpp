@@ -76,12 +76,10 @@ struct BenchmarkResult {
 struct BenchmarkOptions {
   MethodOptions method;
   int rounds = 1;
-  int tile = 0;                  ///< side of tiles in pixels, 0 for none
-  Snap truth = Snap::to_pixels;  ///< what the seeds were placed with, which all are judged by
 };
 
-/// Times methods from seeds on the device to labels on the device, and with tiles the exact engine from seeds
-/// on the host to labels on the host too: on the grid, and tile by tile from seeds that were sorted before.
+/// Times methods from seeds on the device to labels on the device. What the seeds were placed with all are
+/// judged by.
 ///
 /// Runs each method once, which builds its programs, allocates its memory and is judged; then the methods
 /// take turns, so that a machine that slows down slows all of them. A method that goes on from the last frame

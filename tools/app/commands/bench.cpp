@@ -7,13 +7,11 @@
 
 #include "app/bench/benchmark.hpp"
 #include "app/commands/commands.hpp"
-#include "app/commands/volume.hpp"
 #include "app/options/option_groups.hpp"
 #include "app/outputs/measures.hpp"
 #include "app/sources/bounds.hpp"
 #include "app/terminal/console.hpp"
 #include "app/terminal/end_of_run.hpp"
-#include "app/terminal/selected_device.hpp"
 #include "formats/values.hpp"
 
 namespace vorocl::command {
@@ -23,7 +21,7 @@ namespace {
 struct BenchOptions {
   SeedOptions seeds;
   std::vector<Method> methods;
-  BenchmarkOptions benchmark = {{}, 9, 0, Snap::to_pixels};
+  BenchmarkOptions benchmark = {{}, 9};
   std::string device;
   bool json = false;
 };
@@ -67,12 +65,6 @@ void run(const BenchOptions& options) {
   print_result(options, seeds, input.view, benchmark(options.methods, options.benchmark, seeds));
 }
 
-/// Throws UsageError for what volumes do not have.
-void check_volume(const BenchOptions& options) {
-  if (options.benchmark.tile != 0) refuse_in_volumes("--tile");
-  for (const Method& method : options.methods) check_volume_method(method, options.benchmark.method.metric);
-}
-
 void add_methods_option(Command& command, std::vector<Method>& methods) {
   Choices<Method> choices = method_choices();
   choices.emplace_back(opencv_method().name, opencv_method());
@@ -94,13 +86,6 @@ void add_bench(CommandLine& line) {
   add_methods_option(command, options->methods);
   add_method_options(command, options->benchmark.method);
   command.begin_section("Benchmark");
-  command
-      .add("--tile", options->benchmark.tile,
-           "Time exact from seeds to labels on the host too, in one grid and in tiles of N x N pixels, whose "
-           "seeds were "
-           "sorted before")
-      .value_name("N")
-      .in_range(1, Size::max_side);
   command.add("--repeat", options->benchmark.rounds, "Rounds after the warm-up")
       .value_name("R")
       .in_range(1, 1000000)
@@ -108,11 +93,12 @@ void add_bench(CommandLine& line) {
   add_device_option(command, options->device);
   add_json_option(command, options->json);
   command.set_work([command, options] {
-    if (options->seeds.is_volume()) check_volume(*options);
+    for (const Method& method : options->methods) {
+      if (options->seeds.is_volume()) check_volume_method(method, options->benchmark.method.metric);
+    }
     check_method_options(command, options->methods, options->benchmark.method);
     options->seeds.keeps_inside = "bench cannot take";
     options->seeds.usual_snap = Snap::to_pixels;
-    options->benchmark.truth = options->seeds.snap.value_or(Snap::to_pixels);
     run(*options);
   });
 }

@@ -8,13 +8,11 @@
 #include <utility>
 
 #include "app/commands/commands.hpp"
-#include "app/commands/volume.hpp"
 #include "app/options/option_groups.hpp"
 #include "app/outputs/exact_cell_files.hpp"
 #include "app/outputs/measures.hpp"
 #include "app/terminal/console.hpp"
 #include "app/terminal/end_of_run.hpp"
-#include "app/terminal/selected_device.hpp"
 #include "formats/files.hpp"
 
 namespace vorocl::command {
@@ -223,10 +221,9 @@ void add_cells(CommandLine& line) {
   add_crs_option(command, options->seeds.crs, "labels and distances as .tif and polygons as .geojson say")
       .needs("--points");
   add_json_option(command, options->json);
-  const Option exact = command.add(
-      "--exact", options->exact,
-      "Cut the cells as polygons, of points and particles with z as polyhedra, at the seeds' own places and "
-      "without pixels: for --cells, --adjacency and --polygons, in the units of the data");
+  const Option exact =
+      command.add("--exact", options->exact,
+                  "Cut the cells as polygons or polyhedra, at the seeds' own places and without pixels");
   add_file_option(command, files.polygons).needs(exact);
   command.set_work([command, options] {
     options->seeds.on_globe = options->method_options.metric == Metric::great_circle;

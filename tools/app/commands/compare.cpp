@@ -10,12 +10,10 @@
 #include <unordered_map>
 
 #include "app/commands/commands.hpp"
-#include "app/commands/volume.hpp"
 #include "app/options/option_groups.hpp"
 #include "app/outputs/measures.hpp"
 #include "app/terminal/console.hpp"
 #include "app/terminal/end_of_run.hpp"
-#include "app/terminal/selected_device.hpp"
 #include "formats/files.hpp"
 #include "formats/raster_files.hpp"
 #include "vorocl/distance_errors.hpp"
@@ -185,9 +183,8 @@ void run(const CompareOptions& options) {
 
 void add_compare(CommandLine& line) {
   const auto options = std::make_shared<CompareOptions>();
-  Command command = line.add("compare",
-                             "Similarity of two label files: the share of pixels with "
-                             "equal labels; or of one and the exact diagram of seeds");
+  Command command =
+      line.add("compare", "Similarity of two label files, or of one and the exact diagram of seeds");
   command.add("a", options->a, "Labels, .npy or .tif; of a volume .npy").required();
   command.add("b", options->b, "Labels of the same size");
   add_seed_options(command, options->seeds, 0, false, Makes::volumes_too);

@@ -113,8 +113,7 @@ void add_devices(CommandLine& line) {
   Command command = line.add("devices", "List the OpenCL devices and the one that would be used");
   add_device_option(command, options->device);
   command.add("--check", options->check,
-              "Make small diagrams whose labels are known, by every method, on all devices or on the one of "
-              "--device; exit code 1 if one is wrong");
+              "Make small diagrams whose labels are known; exit code 1 if one is wrong");
   add_json_option(command, options->json);
   command.set_work([options] { run(*options); });
 }

@@ -6,9 +6,9 @@
 #include <nlohmann/json.hpp>
 
 #include "app/commands/simulate_course.hpp"
+#include "app/options/option_groups.hpp"
 #include "app/outputs/exact_cell_files.hpp"
 #include "app/outputs/output_files.hpp"
-#include "app/terminal/selected_device.hpp"
 
 namespace vorocl::command {
 

@@ -13,7 +13,6 @@
 #include "app/terminal/console.hpp"
 #include "app/terminal/end_of_run.hpp"
 #include "app/terminal/progress.hpp"
-#include "app/terminal/selected_device.hpp"
 #include "formats/files.hpp"
 #include "formats/images/pictures.hpp"
 #include "formats/npy.hpp"
@@ -274,37 +273,26 @@ void add_relax(CommandLine& line) {
   command.begin_section("Relaxation");
   command
       .add("--rounds", options->rounds,
-           "Greatest number of rounds; the relaxation ends sooner when no seed moves by 1/64 of a pixel")
+           "Greatest number of rounds; it ends when no seed moves by 1/64 of a pixel")
       .value_name("K")
       .in_range(0, 1000000000)
       .required();
-  const Option exact = command.add(
-      "--exact", options->exact,
-      "Move seeds to the centroids of their polygons, not of their pixels: cells become as even as polygons "
-      "do with any number of pixels, which are those of pictures, labels and energies");
+  const Option exact = command.add("--exact", options->exact,
+                                   "Move seeds to the centroids of their polygons, not of their pixels");
   command
-      .add(
-          "--density", options->density_path,
-          "How dense the seeds shall be, for each pixel of the grid: a picture, whose dark pixels are dense, "
-          "as ink on paper, or numbers in .npy (H, W), of which greater ones are dense; --random takes its "
-          "size, and draws points by it")
+      .add("--density", options->density_path,
+           "How dense the seeds shall be: a picture, dense where it is dark, or numbers in .npy")
       .value_name("IMAGE")
       .excludes(exact);
   add_device_option(command, options->device);
-  add_film_options(
-      command, options->pictures, "PICTURE|FILM|PICTURES",
-      "Picture of the end, such as a.png; or of all rounds from the start: a film, .mp4 (H.264), "
-      "or numbered pictures, such as rounds/%05d.png");
+  add_film_options(command, options->pictures, "PICTURE|FILM|PICTURES",
+                   "Picture of the end, a.png; or of all rounds: a film, .mp4, or pictures, rounds/%05d.png");
   add_file_option(command, options->labels);
   command
       .add("--relaxed-points", options->points_path,
-           "Points to write, in the units of --units: .csv (id, x, y) or .npy (N, 2); --points reads them "
-           "back with the same bounds, or with --bounds 0,0,W,H where they are in pixels")
+           "Points to write, in the units of --units: .csv (id, x, y) or .npy (N, 2)")
       .value_name("FILE");
-  command
-      .add("--energy", options->energy_path,
-           "A .csv file with one row per round: the sum of the squared distances of all pixels to their "
-           "seeds, and how many seeds the round moved")
+  command.add("--energy", options->energy_path, "Energies to write, one row per round: .csv")
       .value_name("FILE");
   add_json_option(command, options->json);
   command.set_work([command, options] {

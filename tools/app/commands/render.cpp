@@ -7,12 +7,10 @@
 #include <optional>
 
 #include "app/commands/commands.hpp"
-#include "app/commands/volume.hpp"
 #include "app/options/option_groups.hpp"
 #include "app/outputs/measures.hpp"
 #include "app/terminal/console.hpp"
 #include "app/terminal/end_of_run.hpp"
-#include "app/terminal/selected_device.hpp"
 #include "formats/images/pictures.hpp"
 #include "formats/numbered_files.hpp"
 #include "formats/values.hpp"
@@ -178,8 +176,7 @@ void add_render(CommandLine& line) {
   add_max_distance_option(command, options->max_distance);
   command
       .add("--waves", options->waves_pattern,
-           "Pictures to write of the diagram before the first wave and after every wave, such as "
-           "waves/%02d.png; for djfa, the waves of the JFA that makes frame 0")
+           "Pictures to write before the first wave and after each one, such as waves/%02d.png")
       .value_name("PICTURES");
   add_slice_option(command, options->picture);
   add_picture_options(command, options->picture);

@@ -7,9 +7,7 @@
 
 #include "app/commands/commands.hpp"
 #include "app/commands/simulate_course.hpp"
-#include "app/commands/volume.hpp"
 #include "app/options/option_groups.hpp"
-#include "app/terminal/selected_device.hpp"
 #include "formats/files.hpp"
 #include "formats/values.hpp"
 #include "vorocl/similarity.hpp"
@@ -244,11 +242,10 @@ void add_simulate(CommandLine& line) {
   add_method_options(command, options->method_options);
   command.begin_section("Another method, to compare with");
   const auto set_other = [](const std::string& name) { return choose(method_choices(), name); };
-  const Option compare_with =
-      command
-          .add_parsed("--compare-with", options->compare_with, set_other,
-                      "Another method to run on the same seeds, with its default waves, and to compare with")
-          .value_name("NAME");
+  const Option compare_with = command
+                                  .add_parsed("--compare-with", options->compare_with, set_other,
+                                              "Another method to run on the same seeds, and to compare with")
+                                  .value_name("NAME");
   const Choices<std::optional<Metric>> metrics = {{"euclidean", Metric::euclidean},
                                                   {"manhattan", Metric::manhattan}};
   command.add_choice("--compare-metric", options->compare_metric, metrics, "The other method's distance")
@@ -256,8 +253,7 @@ void add_simulate(CommandLine& line) {
       .needs(compare_with);
   command
       .add_parsed("--tolerance", options->tolerance, parse_tolerance,
-                  "Compare distances instead of labels: pixels are equal if their two seeds are equally far, "
-                  "to within this many pixels, by --metric")
+                  "Compare distances instead of labels, to within this many pixels")
       .value_name("PIXELS")
       .needs(compare_with);
   add_weight_options(command, options->seeds);
@@ -266,10 +262,7 @@ void add_simulate(CommandLine& line) {
   add_device_option(command, options->device);
   add_json_option(command, options->json);
   const Option exact = command.add("--exact", options->exact,
-                                   "Cut the cells of a trajectory as polygons, or where the particles have z "
-                                   "as polyhedra, at the particles' own places "
-                                   "and without pixels: for --cells, "
-                                   "--adjacency and --polygons, in the units of the data");
+                                   "Cut the cells of a trajectory as polygons or polyhedra, without pixels");
   add_file_option(command, options->polygons, true).needs(exact);
   command.set_work([command, options] {
     if (options->exact) return run_exact(command, *options);

@@ -4,10 +4,10 @@
 
 #include "app/commands/commands.hpp"
 #include "app/commands/tiles_options.hpp"
+#include "app/options/option_groups.hpp"
 #include "app/terminal/console.hpp"
 #include "app/terminal/end_of_run.hpp"
 #include "app/terminal/progress.hpp"
-#include "app/terminal/selected_device.hpp"
 
 namespace vorocl::command {
 
@@ -75,7 +75,8 @@ void run_tiles(TilesOptions options) {
   const auto [seeds, facts] = read_seeds(options.seeds, mask.get(), tiling.window().grid(), interruption);
   writer.begin(facts.name);
   const TilesCourse course = make_tiles(options, device, *seeds, tiling, facts.units, writer, interruption);
-  writer.finish(facts.units, [&, &known = facts] { return rows_of_seeds(options.seeds, known); });
+  writer.finish(facts.units,
+                [&, &known = facts](const SeedRows& rows) { each_seed(options.seeds, known, rows); });
   print_result(options, device, facts, tiling, course);
 }
 

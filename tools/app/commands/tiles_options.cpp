@@ -81,13 +81,12 @@ void add_tiles(CommandLine& line, const std::function<void(const TilesOptions&)>
       .default_text("what a quarter of the device's memory holds, 4096 at most, 2048 of a mask");
   command
       .add_parsed("--only", options->part, parse_part,
-                  "Make a part of the plane alone: the pixels from (X0, Y0) up to, and without, (X1, Y1)")
+                  "Make a part of the plane: the pixels from (X0, Y0) up to, and without, (X1, Y1)")
       .value_name("X0,Y0,X1,Y1");
   command.begin_section(files_to_write);
   command
       .add("--labels", options->output.labels,
-           "Labels: a .npy file (uint32), a .zarr folder (Zarr version 2, a chunk per tile) or a .tif file "
-           "(tiled BigTIFF; with --bounds, and of a mask that is one, a GeoTIFF)")
+           "Labels: .npy (uint32), .zarr (version 2, a chunk per tile) or .tif (BigTIFF, GeoTIFF)")
       .value_name("FILE");
   command
       .add("--distance", options->output.distances,
@@ -97,22 +96,14 @@ void add_tiles(CommandLine& line, const std::function<void(const TilesOptions&)>
   add_crs_option(command, options->crs, "a .tif file says");
   command
       .add("-o", options->output.picture,
-           "Picture to write, of the plane or of the part that --only names, at most 4096 pixels a side: "
-           ".png, .jpg, .bmp or .tif")
+           "Picture to write, of at most 4096 pixels a side: .png, .jpg, .bmp or .tif")
       .value_name("PICTURE");
-  command
-      .add("--cells", options->output.cells,
-           "A .csv file with one row per cell that has pixels: its seed, area, centroid, extent, perimeter, "
-           "neighbours")
+  command.add("--cells", options->output.cells, "Tables of cells that have pixels, one row per cell: .csv")
       .value_name("FILE");
-  command
-      .add("--adjacency", options->output.adjacency,
-           "A .csv file with one row per pair of cells that touch: their ids and the pixel edges they share")
+  command.add("--adjacency", options->output.adjacency, "Tables of cells that touch, one row per pair: .csv")
       .value_name("FILE");
-  command.add(
-      "--resume", options->output.resume,
-      "Keep a journal, and go on from the one that an interrupted run with --resume left (vorocl-mpi keeps "
-      "one always)");
+  command.add("--resume", options->output.resume,
+              "Keep a journal, and go on from the one that an interrupted run has left");
   add_device_option(command, options->device);
   add_json_option(command, options->json);
   command.set_work([command, options, run] {

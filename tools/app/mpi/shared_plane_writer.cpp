@@ -160,7 +160,7 @@ void SharedPlaneWriter::end() {
   }
 }
 
-void SharedPlaneWriter::finish(const Units& units, const std::function<PlaneRows()>& seeds) {
+void SharedPlaneWriter::finish(const Units& units, const EachSeed& seeds) {
   if (rank_ == 0) writer_->finish(units, seeds);
   MPI_Barrier(communicator_);
 }

@@ -50,7 +50,7 @@ class SharedPlaneWriter {
   void end();
 
   /// On all ranks, after end(): gives the files their names.
-  void finish(const Units& units, const std::function<PlaneRows()>& seeds);
+  void finish(const Units& units, const EachSeed& seeds);
 
  private:
   void send(int tag);

@@ -158,7 +158,7 @@ void run(const TilesOptions& given) {
   writer.begin(facts.name);
   const TilesCourse course =
       make_tiles(options, ranks, device, seeds, tiling, facts.units, writer, interruption);
-  writer.finish(facts.units, [&] { return rows_of_seeds(options.seeds, facts); });
+  writer.finish(facts.units, [&](const SeedRows& rows) { each_seed(options.seeds, facts, rows); });
   if (ranks.rank == 0) print_result(options, device, facts, tiling, course);
 }
 

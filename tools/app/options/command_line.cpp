@@ -18,6 +18,41 @@
 
 namespace vorocl::command {
 
+namespace {
+
+std::size_t distance_between(const std::string& a, const std::string& b) {
+  std::vector<std::vector<std::size_t>> steps(a.size() + 1, std::vector<std::size_t>(b.size() + 1));
+  for (std::size_t i = 0; i <= a.size(); ++i) {
+    for (std::size_t j = 0; j <= b.size(); ++j) {
+      if (i == 0 || j == 0) {
+        steps[i][j] = i + j;
+        continue;
+      }
+      steps[i][j] = std::min(
+          {steps[i - 1][j] + 1, steps[i][j - 1] + 1, steps[i - 1][j - 1] + (a[i - 1] == b[j - 1] ? 0 : 1)});
+      const bool is_swapped = i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1];
+      if (is_swapped) steps[i][j] = std::min(steps[i][j], steps[i - 2][j - 2] + 1);
+    }
+  }
+  return steps[a.size()][b.size()];
+}
+
+}  // namespace
+
+std::string did_you_mean(const std::string& word, const std::vector<std::string>& names) {
+  constexpr std::size_t longest = 100;
+  if (word.size() > longest) return {};
+  std::size_t least = word.size() / 3 + 1;
+  std::string nearest;
+  for (const std::string& name : names) {
+    const std::size_t distance = distance_between(word, name);
+    if (distance >= least) continue;
+    least = distance;
+    nearest = name;
+  }
+  return nearest.empty() ? "" : "did you mean " + nearest + "? ";
+}
+
 Option& Option::required() {
   option_->required();
   return *this;
@@ -43,15 +78,14 @@ Option& Option::default_is_value() {
   return *this;
 }
 
-Option& Option::in_range(int low, int high) {
+template <typename T>
+Option& Option::in_range(T low, T high) {
   option_->check(CLI::Range(low, high));
   return *this;
 }
 
-Option& Option::in_range(std::size_t low, std::size_t high) {
-  option_->check(CLI::Range(low, high));
-  return *this;
-}
+template Option& Option::in_range(int, int);
+template Option& Option::in_range(std::size_t, std::size_t);
 
 Option& Option::in_range(double low, double high) {
   const auto not_a_number = [low, high](const std::string& text) {
@@ -86,52 +120,47 @@ Option Command::add(const std::string& name, bool& flag, const std::string& abou
   return Option(*app_->add_flag(name, flag, about));
 }
 
-Option Command::add(const std::string& name, std::string& value, const std::string& about) {
-  return Option(*app_->add_option(name, value, about));
-}
-
 Option Command::add_pair(const std::string& names, const std::function<void(bool is_on)>& set,
                          const std::string& about) {
   return Option(*app_->add_flag_function(
       names, [set](std::int64_t count) { set(count > 0); }, about));
 }
 
-Option Command::add(const std::string& name, int& value, const std::string& about) {
+template <typename T>
+Option Command::add(const std::string& name, T& value, const std::string& about) {
   return Option(*app_->add_option(name, value, about));
 }
 
-Option Command::add(const std::string& name, std::optional<int>& value, const std::string& about) {
-  return Option(*app_->add_option(name, value, about));
-}
+template Option Command::add(const std::string&, std::string&, const std::string&);
+template Option Command::add(const std::string&, int&, const std::string&);
+template Option Command::add(const std::string&, std::optional<int>&, const std::string&);
+template Option Command::add(const std::string&, std::uint64_t&, const std::string&);
+template Option Command::add(const std::string&, double&, const std::string&);
 
-Option Command::add(const std::string& name, std::uint64_t& value, const std::string& about) {
-  return Option(*app_->add_option(name, value, about));
-}
+namespace {
 
-Option Command::add(const std::string& name, double& value, const std::string& about) {
-  return Option(*app_->add_option(name, value, about));
-}
-
-Option Command::add(const std::string& name, const Setter& set, const std::string& about) {
-  const auto checked = [set, name](const std::string& text) {
+/// An Error of what takes the value is one that names the option.
+template <typename Value>
+std::function<void(const Value&)> checked(const std::string& name,
+                                          const std::function<void(const Value&)>& set) {
+  return [set, name](const Value& value) {
     try {
-      set(text);
+      set(value);
     } catch (const Error& error) {
       throw CLI::ValidationError(name, error.what());
     }
   };
-  return Option(*app_->add_option_function<std::string>(name, checked, about));
+}
+
+}  // namespace
+
+Option Command::add_text(const std::string& name, const Setter& set, const std::string& about) {
+  return Option(*app_->add_option_function<std::string>(name, checked(name, set), about));
 }
 
 Option Command::add_texts(const std::string& name, const ListSetter& set, const std::string& about) {
-  const auto checked = [set, name](const std::vector<std::string>& texts) {
-    try {
-      set(texts);
-    } catch (const Error& error) {
-      throw CLI::ValidationError(name, error.what());
-    }
-  };
-  CLI::Option* const option = app_->add_option_function<std::vector<std::string>>(name, checked, about);
+  CLI::Option* const option =
+      app_->add_option_function<std::vector<std::string>>(name, checked(name, set), about);
   return Option(*option->delimiter(','));
 }
 

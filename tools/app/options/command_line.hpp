@@ -10,7 +10,6 @@
 #include <utility>
 #include <vector>
 
-#include "app/options/suggestion.hpp"
 #include "vorocl/error.hpp"
 
 namespace CLI {
@@ -30,8 +29,8 @@ class Option {
   Option& value_name(const std::string& name);    ///< for the help
   Option& default_text(const std::string& text);  ///< for the help
   Option& default_is_value();                     ///< the help shows what the variable holds now
-  Option& in_range(int low, int high);            ///< both included, as below
-  Option& in_range(std::size_t low, std::size_t high);
+  template <typename T>
+  Option& in_range(T low, T high);  ///< both included
   Option& in_range(double low, double high);
   Option& needs(const Option& other);
   Option& needs(const std::string& name);
@@ -52,6 +51,11 @@ std::string names_of(const Choices<T>& choices) {
   for (const auto& choice : choices) names += (names.empty() ? "" : ", ") + choice.first;
   return names;
 }
+
+/// "did you mean NAME? ", of the name that takes the fewest letters to insert, remove, replace or swap (the
+/// distance of Damerau and Levenshtein, the first of several); nothing if more than a third of the word would
+/// change.
+std::string did_you_mean(const std::string& word, const std::vector<std::string>& names);
 
 /// What the text stands for. Throws Error, which lists the names, if it is none of them.
 template <typename T>
@@ -79,19 +83,17 @@ class Command {
   explicit Command(CLI::App& app) : app_(&app) {}
 
   Option add(const std::string& name, bool& flag, const std::string& about);
-  Option add(const std::string& name, std::string& value, const std::string& about);
+
+  /// A text or a number, which may be optional.
+  template <typename T>
+  Option add(const std::string& name, T& value, const std::string& about);
 
   /// A flag and its opposite: "--name,!--no-name".
   Option add_pair(const std::string& names, const std::function<void(bool is_on)>& set,
                   const std::string& about);
 
-  Option add(const std::string& name, int& value, const std::string& about);
-  Option add(const std::string& name, std::optional<int>& value, const std::string& about);
-  Option add(const std::string& name, std::uint64_t& value, const std::string& about);
-  Option add(const std::string& name, double& value, const std::string& about);
-
   /// An option whose text `set` is given; an Error of it is a usage error that names the option.
-  Option add(const std::string& name, const Setter& set, const std::string& about);
+  Option add_text(const std::string& name, const Setter& set, const std::string& about);
 
   /// An option with a list of texts, with commas between them.
   Option add_texts(const std::string& name, const ListSetter& set, const std::string& about);
@@ -100,7 +102,7 @@ class Command {
   template <typename T, typename Parse>
   Option add_parsed(const std::string& name, T& value, const Parse& parse, const std::string& about) {
     const Setter set = [&value, parse](const std::string& text) { value = parse(text); };
-    return add(name, set, about);
+    return add_text(name, set, about);
   }
 
   /// An option with a list of texts, each of which `parse` turns into a value.

@@ -1,3 +1,5 @@
+#include <unistd.h>
+
 #include <algorithm>
 
 #include "app/options/option_groups.hpp"
@@ -12,9 +14,7 @@ Option add_metric_option(Command& command, Metric& metric, Globe globe) {
   std::string about = "Distance";
   if (globe == Globe::yes) {
     metrics.emplace_back(of_globe, Metric::great_circle);
-    about +=
-        "; great-circle: on the globe, of longitudes and latitudes in degrees, north up unless --y-down, in "
-        "kilometres";
+    about += "; great-circle: on the globe, of degrees, in kilometres";
   }
   const auto parse = [metrics, globe](const std::string& text) {
     if (globe == Globe::no && text == of_globe) {
@@ -33,9 +33,20 @@ Option add_metric_option(Command& command, Metric& metric, Globe globe) {
 Option add_device_option(Command& command, std::string& request) {
   return command
       .add("--device", request,
-           "Part of a platform's or device's name, or platform:device indices (vorocl devices lists "
-           "them); else what the environment variable VOROCL_DEVICE says, else the best there is")
+           "Part of a platform's or device's name, or platform:device indices: see vorocl devices")
       .in_section(run_section);
+}
+
+Device select_device(const std::string& request) {
+  Device device = Device::select(request);
+  if (isatty(STDERR_FILENO) != 0) {
+    device.on_compiling([] {
+      print_note(
+          "the driver compiles kernels, which takes some seconds, once; \"vorocl prepare\" has all compiled "
+          "beforehand");
+    });
+  }
+  return device;
 }
 
 Option add_json_option(Command& command, bool& json) {
@@ -65,9 +76,8 @@ void add_method_options(Command& command, MethodOptions& options, Globe globe) {
       .add_choice("--neighbourhood", options.neighbourhood, neighbourhoods, "Neighbours that a wave looks at")
       .default_text("mixed for djfa, moore for the others");
   command
-      .add(
-          "--von-neumann-waves", options.von_neumann_waves,
-          "djfa with the mixed neighbourhood: how many waves, from the first, look at von Neumann neighbours")
+      .add("--von-neumann-waves", options.von_neumann_waves,
+           "djfa: how many waves, from the first, look at von Neumann neighbours")
       .value_name("0|1|2")
       .in_range(0, 2)
       .default_is_value();
@@ -86,12 +96,23 @@ void add_method_options(Command& command, MethodOptions& options, Globe globe) {
   const Choices<Reach> reaches = {
       {"measured", Reach::measured}, {"paper", Reach::paper}, {"authors", Reach::authors}};
   command
-      .add_choice(
-          "--reach", options.reach, reaches,
-          "djfa: the waves follow from how far the last labels are from their seeds, or, as in the "
-          "paper, from the mean density and the greatest displacement alone; authors: likewise, with a "
-          "first step rounded down, as in the program of the paper's authors")
+      .add_choice("--reach", options.reach, reaches,
+                  "djfa: the waves follow from the last labels, or as in the paper or its authors' program")
       .default_text("measured");
+}
+
+void check_volume_method(const Method& method, Metric metric) {
+  if (method.exact && metric != Metric::euclidean) {
+    throw UsageError(
+        "exact diagrams of volumes are Euclidean; of methods that make volumes jump flooding takes --metric "
+        "manhattan");
+  }
+  if (method.volumes) return;
+  std::string names;
+  for (const Method& other : methods()) {
+    if (other.volumes) names += (names.empty() ? "" : ", ") + other.name;
+  }
+  throw UsageError("the method " + method.name + " is for planes; volumes have " + names);
 }
 
 void check_method_options(const Command& command, const std::vector<Method>& methods,

@@ -10,6 +10,7 @@
 #include "app/outputs/painter.hpp"
 #include "app/sources/moving_seeds.hpp"
 #include "app/sources/seed_input.hpp"
+#include "vorocl/device.hpp"
 #include "vorocl/grid.hpp"
 #include "vorocl/method.hpp"
 
@@ -19,6 +20,8 @@ namespace vorocl::command {
 enum class Globe { no, yes };
 Option add_metric_option(Command& command, Metric& metric, Globe globe = Globe::no);
 Option add_device_option(Command& command, std::string& request);
+/// As Device::select(). On a terminal, a run that waits for the driver's compiler says so.
+Device select_device(const std::string& request);
 Option add_json_option(Command& command, bool& json);
 
 /// What a subcommand makes of seeds.
@@ -71,6 +74,9 @@ void add_method_option(Command& command, Method& method, const std::string& abou
 
 /// Adds --metric, --neighbourhood and the waves of djfa.
 void add_method_options(Command& command, MethodOptions& options, Globe globe = Globe::no);
+
+/// Throws UsageError for a method that knows planes alone, or no such metric in volumes.
+void check_volume_method(const Method& method, Metric metric);
 
 /// Throws UsageError for options that only djfa has, if none of the methods is djfa.
 void check_method_options(const Command& command, const std::vector<Method>& methods,

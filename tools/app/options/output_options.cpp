@@ -8,14 +8,7 @@ Option add_file_option(Command& command, FileRequest& request, bool numbered) {
   const FileKind& kind = request.kind;
   std::string example;
   if (numbered) example = "; one file per frame, such as frames/%05d" + kind.extensions.front();
-  if (numbered && kind.table() != nullptr) {
-    example +=
-        ", or one table of all frames, with the columns frame and timestep before the others, such as " +
-        kind.option.substr(2) + kind.extensions.front();
-  }
-  const std::string last = kind.extensions.back();  // those of VTK
-  if (numbered && (last == ".vti" || last == ".vtu"))
-    example += "; " + last + " files are listed in a .pvd file";
+  if (numbered && kind.table() != nullptr) example += ", or one table of all, such as cells.csv";
   return command.add(kind.option, request.path, kind.about + example).value_name(numbered ? "FILES" : "FILE");
 }
 
@@ -33,9 +26,7 @@ void add_cell_columns_option(Command& command, FileRequest& cells) {
     cells.columns = names;
   };
   command
-      .add_texts("--cell-columns", choose_all,
-                 "The columns of --cells, in this order, separated by commas: " + names_of(columns) +
-                     "; planes have area and perimeter, volumes volume and surface, and z, front and back")
+      .add_texts("--cell-columns", choose_all, "The columns of --cells, in this order: " + names_of(columns))
       .value_name("NAMES")
       .default_text("all")
       .needs("--cells");
@@ -62,21 +53,13 @@ void add_frame_writer_options(Command& command, FrameWriterOptions& options) {
   add_cell_columns_option(command, options.files[1]);
   command
       .add("--similarity", options.similarity_path,
-           "Similarities to write, frame by frame: a .csv file with the columns frame and similarity and, "
-           "with --compare-with exact in the same metric, wrong_percent, largest_excess and mean_excess")
+           "Similarities to write, frame by frame, with --compare-with exact errors too: .csv")
       .value_name("FILE")
       .needs("--compare-with");
   command
-      .add(
-          "--statistics", options.statistics_path,
-          "Statistics to write, one row per frame: a .csv file with the numbers of cells and of empty "
-          "cells, the mean and the deviation of their areas, the pixels that changed since the frame "
-          "before, the diagram's milliseconds, and the box of a trajectory; of volumes the same with volumes "
-          "and voxels")
+      .add("--statistics", options.statistics_path, "Statistics of cells to write, one row per frame: .csv")
       .value_name("FILE");
-  command
-      .add("--every", options.every,
-           "Write pictures, files and rows of cells and pairs only of frames 0, K, 2 K, ...")
+  command.add("--every", options.every, "Write pictures, files and rows of frames 0, K, 2 K, ... alone")
       .value_name("K")
       .in_range(1, 1000000000)
       .default_is_value();

@@ -52,27 +52,18 @@ void add_picture_options(Command& command, PictureOptions& options) {
       {"viridis_r", Palette::viridis_r}, {"turbo_r", Palette::turbo_r}, {"greys_r", Palette::greys_r},
       {"okabe-ito", Palette::okabe_ito}};
   command
-      .add_parsed(
-          "--color", options.color, parse_coloring,
-          "What the colour of a pixel shows: its cell's seed, the distance to it, the cell's area or its "
-          "number of neighbours, or a column of numbers or texts of the CSV file or the trajectory (grey "
-          "where a value is absent): " +
-              names_of(quantities))
+      .add_parsed("--color", options.color, parse_coloring,
+                  "What the colour of a pixel shows; a column has numbers or texts: " + names_of(quantities))
       .value_name("NAME")
       .default_text("id");
   command.add_choice(
       "--palette", options.palette, palettes,
-      "Colours of quantities (else viridis), with _r reversed, or okabe-ito: 8 colours for whole numbers and "
-      "ids, for the colour-blind too (an id keeps its colour, and cells that touch may share one; without it "
-      "ids have a colour each)");
+      "Colours of quantities, with _r reversed; okabe-ito: 8 colours of ids and whole numbers");
   command
       .add_parsed("--scale", options.scale, parse_scale,
-                  "Values at the ends of the palette, or percentiles of the picture's, such as 2%,98%; those "
-                  "beyond get the colours of the ends. Else the range of the picture, in a film or series of "
-                  "the first one drawn")
+                  "Values at the ends of the palette, or percentiles, such as 2%,98%")
       .value_name("LOW,HIGH");
-  command.add("--log", options.logarithmic,
-              "Colours go by the logarithm of the quantity; values of 0 or less are left out and counted");
+  command.add("--log", options.logarithmic, "Colours go by the logarithm of the quantity");
   command.add("--color-bar", options.color_bar, "Draw the scale at the right, with numbers");
   command.add("--edges", options.edge_width, "Draw the borders of the cells, N pixels wide")
       .value_name("[N]")
@@ -85,13 +76,11 @@ void add_picture_options(Command& command, PictureOptions& options) {
   };
   command
       .add_parsed("--contours", options.contour_interval, set_contours,
-                  "Draw lines of equal distance to the nearest seed, one every D pixels; without D the round "
-                  "number that makes at most 10 lines in the first picture")
+                  "Draw lines of equal distance to the nearest seed, one every D pixels")
       .value_name("[D]")
       .value_optional();
   command.add("--points-overlay", options.points_overlay, "Draw the seeds");
-  command.add("--stamp", options.stamp,
-              "Write the frame, and the time step of a trajectory, into the lower left corner");
+  command.add("--stamp", options.stamp, "Write the frame, and its time step, into the lower left corner");
   command.add("--enlarge", options.enlargement, "Draw each pixel as a square of K x K")
       .value_name("K")
       .in_range(1, most_enlarged)

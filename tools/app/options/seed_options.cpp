@@ -64,11 +64,8 @@ int parse_width(const std::string& text) {
 }
 
 void add_mask_option(Command& command, Command& source, SeedOptions& options) {
-  const Option mask =
-      source
-          .add("--mask", options.mask,
-               "Pixels of an image or a .npy array that are not 0, numbered in row-major order")
-          .value_name("FILE");
+  const Option mask = source.add("--mask", options.mask, "Pixels of an image or a .npy array that are not 0")
+                          .value_name("FILE");
   command
       .add_parsed("--threshold", options.threshold, parse_threshold,
                   "Pixels of the mask that are greater than T, instead of those that are not 0")
@@ -129,11 +126,9 @@ void add_seed_options(Command& command, SeedOptions& options, std::size_t least,
   move ? rng_seed.excludes(command.option("--trajectory")) : rng_seed.needs(random);
   command
       .add_parsed(
-          "--columns", options.columns, volumes ? parse_columns_and_z : parse_columns,
-          std::string("Columns of the CSV file, by name or by index from 0; else those that the header "
-                      "names x and y, or lon and lat") +
-              (volumes ? " (and z)" : "") + ", or the only " + (volumes ? "ones" : "two") +
-              " where there is no header")
+          "--columns", options.columns,
+          [volumes](const std::string& text) { return parse_columns(text, volumes); },
+          "Columns of the CSV file, by name or by index from 0; else x and y, or lon and lat")
       .value_name(volumes ? "X,Y[,Z]" : "X,Y")
       .needs(points);
   const auto parse_mark = [](const std::string& mark) {
@@ -142,7 +137,7 @@ void add_seed_options(Command& command, SeedOptions& options, std::size_t least,
   };
   command
       .add_parsed("--decimal", options.decimal_comma, parse_mark,
-                  "Decimal mark of the CSV file; with a comma, fields are separated by semicolons or tabs")
+                  "Decimal mark of the CSV file; with a comma, fields have semicolons or tabs between them")
       .value_name("MARK")
       .default_text(".")
       .needs(points);
@@ -152,36 +147,29 @@ void add_seed_options(Command& command, SeedOptions& options, std::size_t least,
           .add_parsed(
               "--size", options.size,
               [makes](const std::string& text) { return std::optional(parse_grid(text, makes)); },
-              "Width and height of the " + grid + " in pixels; with --mask those of the image" +
-                  (volumes ? "; with a depth, those of a volume, which takes no --mask, --width, "
-                             "--outside, --domain, --y-up or --y-down, and pictures of its slices by "
-                             "id alone"
-                           : ""))
+              "Width and height of the " + grid +
+                  (volumes ? " in pixels; with a depth, of a volume" : " in pixels"))
           .value_name(volumes ? "WxH[xD]" : "WxH");
   if (!tiles) {
     command
         .add_parsed(
             "--width", options.width, parse_width,
-            "Width of the grid in pixels, instead of --size: the height follows from the bounds, so that "
-            "pixels are square")
+            "Width of the grid in pixels: the height follows from the bounds, so that pixels are square")
         .value_name("W")
         .excludes(size);
   }
-  const std::string fitted = move ? "what --fit says of a trajectory" : "the box of a trajectory's frame";
   const Option bounds =
       command
           .add_parsed(
               "--bounds", options.bounds,
               [volumes](const std::string& text) { return parse_bounds(text, volumes); },
-              "Rectangle in data units that the " + grid + " shows; else " +
-                  (tiles ? "" : fitted + ", or the domain or ") + "the bounding box of the points" +
+              "Rectangle in data units that the " + grid + " shows; else what the points or the box fill" +
                   (volumes ? "; of a volume X0,Y0,Z0,X1,Y1,Z1" : ""))
           .value_name("X0,Y0,X1,Y1");
   const Option margin =
       command
           .add("--margin", options.margin,
-               "Without --bounds: how much farther than the points' bounding box the picture goes all round, "
-               "in percent of its longer side")
+               "How much farther than the points' box the picture goes, in percent of its longer side")
           .value_name("P")
           .default_is_value()
           .in_range(0.0, 1000.0)
@@ -189,16 +177,13 @@ void add_seed_options(Command& command, SeedOptions& options, std::size_t least,
           .excludes(bounds);
   const Choices<std::optional<Outside>> outside = {{"count", Outside::count}, {"refuse", Outside::refuse}};
   command
-      .add_choice(
-          "--outside", options.outside, outside,
-          "Points outside the bounds: they own the pixels that are nearest to them, or they are an error")
+      .add_choice("--outside", options.outside, outside,
+                  "Points outside the bounds own the pixels that are nearest to them, or are an error")
       .default_text("count");
   if (!tiles) {
     command
-        .add_parsed(
-            "--domain", options.domain, parse_domain,
-            "Rectangle in data units that repeats along the periodic axes of points; the bounds may be a "
-            "part of it")
+        .add_parsed("--domain", options.domain, parse_domain,
+                    "Rectangle in data units that repeats along the periodic axes of points")
         .value_name("X0,Y0,X1,Y1")
         .default_text("the bounds")
         .excludes(margin);
@@ -208,9 +193,7 @@ void add_seed_options(Command& command, SeedOptions& options, std::size_t least,
     axes.emplace_back(to_string(static_cast<Axes>(some)), static_cast<Axes>(some));
   command
       .add_choice("--periodic", options.periodic, axes,
-                  std::string("Axes along which the plane repeats: distances go the shorter way round, cells "
-                              "reach across the border, and points outside the ") +
-                      (tiles ? "bounds" : "domain") + " wrap")
+                  "Axes along which the plane repeats: distances go the shorter way round")
       .default_text(tiles ? "none" : "what a trajectory's file says, else none");
   const Option up = command.add(
       "--y-up", options.y_up,
@@ -224,11 +207,8 @@ void add_snap_option(Command& command, SeedOptions& options, const std::string& 
   command.add_pair(
       "--snap,!--no-snap", set,
       judges.empty()
-          ? "Move points to the centres of their pixels, as methods that flood always do; without it exact "
-            "diagrams take the points themselves, rounded to 1/4096 of a pixel"
-          : judges +
-                " by diagrams of the centres of the points' pixels, as methods that flood make (the "
-                "default), or of the points themselves, rounded to 1/4096 of a pixel");
+          ? "Move points to the centres of their pixels, as methods that flood always do"
+          : judges + " by diagrams of the centres of the points' pixels (the default), or of the points");
 }
 
 Option add_crs_option(Command& command, std::optional<Crs>& crs, const std::string& about) {
@@ -257,10 +237,8 @@ void check_crs(const SeedOptions& options, const std::vector<std::string>& paths
 void add_keep_option(Command& command, SeedOptions& options) {
   const auto parse = [](const std::string& text) { return text; };
   command
-      .add_list(
-          "--keep", options.keep, parse,
-          "Columns of the CSV file, by name or by index, that tables of cells and polygons have too; all: "
-          "every one that has a name")
+      .add_list("--keep", options.keep, parse,
+                "Columns of the CSV file that tables of cells and polygons have too; all: every named one")
       .value_name("COLUMN,...")
       .needs("--points")
       .in_section(seed_files);
@@ -269,19 +247,15 @@ void add_keep_option(Command& command, SeedOptions& options) {
 void add_weight_options(Command& command, SeedOptions& options) {
   const Option weights =
       command
-          .add(
-              "--weights", options.weight_column,
-              "Column of the CSV file or the trajectory with the weights, for the method exact and --exact, "
-              "in "
-              "squared units of the data: a place belongs to the seed of the least squared distance less its "
-              "weight (power, Laguerre or radical cells)")
+          .add("--weights", options.weight_column,
+               "Column with the weights of power (Laguerre, radical) cells, in squared units of the data")
           .value_name("COLUMN")
           .in_section(seed_files);
   const auto set = [&options](const std::string& column) {
     options.weight_column = column;
     options.are_radii = true;
   };
-  command.add("--radius", set, "The same of a column with radii, whose squares are the weights")
+  command.add_text("--radius", set, "The same of a column with radii, whose squares are the weights")
       .value_name("COLUMN")
       .in_section(seed_files)
       .excludes(weights);
@@ -303,18 +277,15 @@ void add_max_distance_option(Command& command, std::optional<double>& distance) 
     return number;
   };
   command
-      .add_parsed(
-          "--max-distance", distance, parse,
-          "Leave pixels without a label that are farther than D from their seed, in the unit of distances")
+      .add_parsed("--max-distance", distance, parse,
+                  "Leave pixels without a label that are farther than D from their seed")
       .value_name("D");
 }
 
 void add_units_option(Command& command, SeedOptions& options, const std::string& with_data) {
   const Choices<std::optional<MeasureUnits>> units = {{"data", MeasureUnits::data},
                                                       {"px", MeasureUnits::pixels}};
-  command
-      .add_choice("--units", options.units, units,
-                  "Units of positions, areas, lengths and distances: those of the data, or pixels")
+  command.add_choice("--units", options.units, units, "Units of positions, areas, lengths and distances")
       .default_text("data for " + with_data + ", else px");
 }
 
@@ -344,30 +315,26 @@ void add_motion_options(Command& command, MotionOptions& options) {
   command.begin_section("Frames");
   command
       .add_parsed("--frames", options.frames, parse_frames,
-                  "Frames to make: 0 to L, or K to L, which continues a run that was ended. Of a trajectory "
-                  "without L, all from K on")
+                  "Frames to make: 0 to L, or K to L; of a trajectory without L, all from K on")
       .value_name("[K:]L");
   const Option trajectory = command.option("--trajectory");
   command
       .add("--step-length", options.step_length,
-           "Each seed moves at random, by up to this many pixels along x and y per frame")
+           "Each seed moves at random, by up to D pixels along x and y per frame")
       .value_name("D")
       .in_range(0, Size::max_side)
       .excludes(trajectory);
   const Choices<Fit> fits = {{"all", Fit::all}, {"frame", Fit::frame}};
   command
-      .add_choice(
-          "--fit", options.fit, fits,
-          "What the picture shows of a trajectory without --bounds: what the boxes of all frames fill, "
-          "with one scale, or each frame's own box, stretched onto the grid")
+      .add_choice("--fit", options.fit, fits,
+                  "What the picture shows without --bounds: the boxes of all frames, or each frame's own")
       .default_text("all")
       .needs(trajectory)
       .excludes(command.option("--bounds"));
   const Choices<Border> borders = {{"reflect", Border::reflect}, {"periodic", Border::periodic}};
   command
       .add_choice("--border", options.border, borders,
-                  "What seeds that move at random do at the border of the grid, along an axis that is not "
-                  "periodic")
+                  "What seeds that move at random do at the border of the grid")
       .default_text("reflect")
       .excludes(trajectory);
 }

@@ -25,8 +25,6 @@ void write_label_file(const OutputFile& file, Measures& measures) {
   write_labels(file, measures.view().picture, measures.labels_in_picture());
 }
 
-constexpr CellPart all_parts[] = {of_seed, of_sums, of_pixels, of_shape, of_perimeter, of_neighbours};
-
 /// A cell of a diagram. On the globe the library measures it.
 CellValues values_of(Measures& measures, std::uint32_t label, unsigned parts) {
   const View& view = measures.view();
@@ -80,19 +78,8 @@ CellValues values_of(ExactCellRows& rows, std::uint32_t seed, unsigned parts) {
   return cell;
 }
 
-/// Reads a part of all cells, if it was not read before, and says where it lies of this one.
-const void* entry_of(Measures& measures, CellPart part, std::uint32_t label) {
-  if (part == of_perimeter) return &measures.perimeters()[label];
-  if (part == of_neighbours) return &measures.neighbours()[label];
-  if (measures.is_on_globe()) return &measures.on_globe()[label];
-  return part == of_sums    ? static_cast<const void*>(&measures.sums()[label])
-         : part == of_shape ? static_cast<const void*>(&measures.shapes()[label])
-         : part == of_seed  ? static_cast<const void*>(&measures.seeds()[label])
-                            : &measures.pixels()[label];
-}
-
 unsigned parts_of(const std::vector<CellColumn>& columns) {
-  unsigned parts = of_pixels | of_seed;  // which say which cells have rows
+  unsigned parts = 0;
   for (const CellColumn& column : columns) parts |= column.part;
   return parts;
 }
@@ -102,29 +89,27 @@ void read_cells(unsigned parts, Measures& measures) {
     if ((parts & of_shape) != 0) exact->read_vertices();
     return;
   }
-  for (const CellPart part : all_parts) {
-    if ((parts & part) != 0) entry_of(measures, part, 0);
+  if (measures.is_on_globe()) {
+    measures.on_globe();
+  } else {
+    measures.seeds();
+    if ((parts & of_sums) != 0) measures.sums();
+    if ((parts & of_shape) != 0) measures.shapes();
   }
+  measures.pixels();  // behind the sums, which have them
+  if ((parts & of_perimeter) != 0) measures.perimeters();
+  if ((parts & of_neighbours) != 0) measures.neighbours();
 }
 
 void add_cells(const std::vector<CellColumn>& columns, GrowingFile& table, const std::string& first,
                Measures& measures) {
-  constexpr std::ptrdiff_t ahead = 8;  // ids say nothing of where labels lie
   const unsigned parts = parts_of(columns);
   ExactCellRows* const exact = measures.exact();
-  const auto add = [&](RowText& text, const std::uint32_t* begin, const std::uint32_t* end) {
-    for (const std::uint32_t* label = begin; label != end; ++label) {
-      for (const CellPart part : all_parts) {
-        if (exact == nullptr && end - label > ahead && (parts & part) != 0)
-          __builtin_prefetch(entry_of(measures, part, label[ahead]));
-      }
-      const CsvFields* const kept = measures.kept() == nullptr ? nullptr : &measures.kept()->fields[*label];
-      add_cell(text, columns,
-               exact != nullptr ? values_of(*exact, *label, parts) : values_of(measures, *label, parts),
-               kept);
-    }
-  };
-  add_pieces(table, first, measures.cells(), add);
+  add_rows(table, first, measures.cells(), [&](RowText& text, std::uint32_t label) {
+    add_cell(text, columns,
+             exact != nullptr ? values_of(*exact, label, parts) : values_of(measures, label, parts),
+             measures.kept() == nullptr ? nullptr : &measures.kept()->fields[label]);
+  });
 }
 
 void add_exact_pairs(GrowingFile& table, const std::string& first, Measures& measures) {
@@ -194,12 +179,12 @@ const std::vector<CellColumn>& all_cell_columns() {
   using Cell = CellValues;
   constexpr CellsOf both = CellsOf::both, planes = CellsOf::planes, volumes = CellsOf::volumes;
   static const std::vector<CellColumn> columns = {
-      {"id", both, of_seed, [](const Cell& cell) { return cell.id; }},
-      {"x", both, of_seed, [](const Cell& cell) { return cell.seed.x; }},
-      {"y", both, of_seed, [](const Cell& cell) { return cell.seed.y; }},
-      {"z", volumes, of_seed, [](const Cell& cell) { return cell.seed.z; }},
-      {"area", planes, of_pixels, [](const Cell& cell) { return cell.area; }},
-      {"volume", volumes, of_pixels, [](const Cell& cell) { return cell.area; }},
+      {"id", both, in_any, [](const Cell& cell) { return cell.id; }},
+      {"x", both, in_any, [](const Cell& cell) { return cell.seed.x; }},
+      {"y", both, in_any, [](const Cell& cell) { return cell.seed.y; }},
+      {"z", volumes, in_any, [](const Cell& cell) { return cell.seed.z; }},
+      {"area", planes, in_any, [](const Cell& cell) { return cell.area; }},
+      {"volume", volumes, in_any, [](const Cell& cell) { return cell.area; }},
       {"centroid_x", both, of_sums, [](const Cell& cell) { return cell.centroid.x; }},
       {"centroid_y", both, of_sums, [](const Cell& cell) { return cell.centroid.y; }},
       {"centroid_z", volumes, of_sums, [](const Cell& cell) { return cell.centroid.z; }},
@@ -219,6 +204,7 @@ const std::vector<CellColumn>& all_cell_columns() {
 
 std::vector<CellColumn> cell_columns_of(const std::vector<std::string>& names) {
   std::vector<CellColumn> columns;
+  columns.reserve(names.size());
   for (const std::string& name : names) {
     columns.push_back(*std::find_if(all_cell_columns().begin(), all_cell_columns().end(),
                                     [&name](const CellColumn& any) { return any.name == name; }));
@@ -228,10 +214,8 @@ std::vector<CellColumn> cell_columns_of(const std::vector<std::string>& names) {
 
 void add_cell(RowText& text, const std::vector<CellColumn>& columns, const CellValues& cell,
               const CsvFields* kept) {
-  text.begin_row();
   for (const CellColumn& column : columns) text.add(column.value(cell));
   if (kept != nullptr) text.add(*kept);
-  text.end_row();
 }
 
 std::string header_of_cells(const std::vector<std::string>& columns, const Units& units,
@@ -244,8 +228,10 @@ std::string header_of_cells(const std::vector<std::string>& columns, const Units
 std::vector<std::string> cell_columns(CellsOf cells) {
   std::vector<std::string> names;
   for (const CellColumn& column : all_cell_columns()) {
-    if (cells == CellsOf::globe) {  // without what is in pixels
-      const std::set<std::string> none = {"left", "top", "right", "bottom", "perimeter"};
+    if (cells == CellsOf::globe || cells == CellsOf::tiles) {
+      const std::set<std::string> in_pixels = {"left", "top", "right", "bottom", "perimeter"};
+      const std::set<std::string> none =
+          cells == CellsOf::globe ? in_pixels : std::set<std::string>{"largest_distance"};
       if (column.of != CellsOf::volumes && none.count(column.name) == 0) names.push_back(column.name);
     } else if (cells == CellsOf::both || column.of == CellsOf::both || column.of == cells) {
       names.push_back(column.name);
@@ -273,19 +259,18 @@ FileKind cells_kind(const std::vector<std::string>& names) {
     add_cells(columns, table, first, measures);
   };
   return {"--cells",
-          "A .csv file with one row per cell: its area, centroid, extent, perimeter, neighbours",
+          "Cells, with area, centroid, extent, perimeter, neighbours: .csv",
           {".csv"},
           [columns](Measures& measures) { read_cells(parts_of(columns), measures); },
           TableKind{names, add_rows, true}};
 }
 
 const FileKind& adjacency_kind() {
-  static const FileKind kind = {
-      "--adjacency",
-      "A .csv file with one row per pair of cells that touch: their ids and the pixel edges they share",
-      {".csv"},
-      [](Measures& measures) { measures.pairs(); },
-      TableKind{{"a", "b", "length"}, add_pairs}};
+  static const FileKind kind = {"--adjacency",
+                                "Pairs of cells that touch, with what they share: .csv",
+                                {".csv"},
+                                [](Measures& measures) { measures.pairs(); },
+                                TableKind{{"a", "b", "length"}, add_pairs}};
   return kind;
 }
 
@@ -301,7 +286,7 @@ const FileKind& distance_kind() {
 const FileKind& border_kind() {
   static const FileKind kind = {
       "--border",
-      "1 where a pixel's edge is shared with another cell, else 0: .npy (uint8), .vti, or .png (white for 1)",
+      "1 where a pixel borders on another cell, else 0: .npy (uint8), .vti, or .png (white)",
       {".npy", ".png", ".vti"},
       [](Measures& measures) { measures.borders(); },
       write_border_file};
@@ -310,8 +295,7 @@ const FileKind& border_kind() {
 
 const FileKind& polygons_kind() {
   static const FileKind kind = {
-      "--polygons",
-      "The polygons of --exact: .geojson, .csv (with a column of WKT) or .vtp (ParaView); polyhedra: .vtu",
+      "--polygons", "Polygons of --exact: .geojson, .csv (WKT) or .vtp (ParaView); polyhedra: .vtu",
       polygon_extensions(), [](Measures& measures) { measures.exact()->read_vertices(); },
       [](const OutputFile& file, Measures& measures) { measures.exact()->write_polygons(file); }};
   return kind;

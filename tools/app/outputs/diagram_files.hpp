@@ -41,7 +41,7 @@ struct FileKind {
 
 /// Labels by id: .npy, .tif or .vti.
 const FileKind& labels_kind();
-enum class CellsOf { planes, volumes, both, globe };
+enum class CellsOf { planes, volumes, both, globe, tiles };
 
 /// A cell as its row in a table, in the units of that; what it does not have is unknown.
 struct CellValues {
@@ -53,15 +53,8 @@ struct CellValues {
   Extent extent = {unknown, unknown, unknown, unknown, unknown, unknown};
 };
 
-/// What is read of all cells of a diagram at once; of exact cells shapes are those of vertices.
-enum CellPart : unsigned {
-  of_seed = 1,
-  of_pixels = 2,
-  of_sums = 4,
-  of_shape = 8,
-  of_perimeter = 16,
-  of_neighbours = 32
-};
+/// What is read of all cells of a diagram where columns need it; of exact cells shapes are those of vertices.
+enum CellPart : unsigned { in_any = 0, of_sums = 1, of_shape = 2, of_perimeter = 4, of_neighbours = 8 };
 
 struct CellColumn {
   std::string name;
@@ -72,7 +65,7 @@ struct CellColumn {
 
 std::vector<CellColumn> cell_columns_of(const std::vector<std::string>& names);
 
-/// A row, with what is kept of the input.
+/// Adds the values of a row, with what is kept of the input.
 void add_cell(RowText& text, const std::vector<CellColumn>& columns, const CellValues& cell,
               const CsvFields* kept);
 

@@ -50,6 +50,12 @@ void print_empty_cells(std::size_t empty, std::size_t cells, std::size_t seeds, 
   }
 }
 
+void print_unlabelled(std::size_t voxels, std::size_t seeds) {
+  if (voxels == 0) return;
+  print("{} without a label: {}\n", counted(voxels, "voxel"),
+        seeds == 0 ? "there are no seeds" : "no wave reached them");
+}
+
 void print_written(const std::vector<RequestedFile>& files) {
   for (const RequestedFile& file : files) {
     if (!file.path.empty()) print("wrote {}\n", printable(file.path));

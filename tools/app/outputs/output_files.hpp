@@ -32,6 +32,9 @@ std::optional<OutputFile> open_output(const std::string& path);
 void print_empty_cells(std::size_t empty, std::size_t cells, std::size_t seeds,
                        const std::string& pixel = "pixel");
 
+/// Says on standard output how many voxels no method reached; nothing if there are none.
+void print_unlabelled(std::size_t voxels, std::size_t seeds);
+
 /// Says on standard output which files were written.
 void print_written(const std::vector<RequestedFile>& files);
 

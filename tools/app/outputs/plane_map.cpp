@@ -32,30 +32,24 @@ struct PictureAxis {
   }
 };
 
-class PlaneMap : public PlaneFile {
+class PlaneMap : public PlacedFile {
  public:
-  PlaneMap(const std::string& path, const Window& window)
-      : window_(window),
-        step_((window.longest_side() - 1) / longest_side_of_map + 1),
-        x_{window.width(), step_},
-        y_{window.height(), step_},
-        output_(path),
-        labels_(path, static_cast<std::uint64_t>(x_.count() * y_.count()) * sizeof no_label) {}
-
-  void open() override { labels_.open(); }
+  PlaneMap(const std::string& path, const Window& window, const PictureAxis& x, const PictureAxis& y)
+      : PlacedFile(path, static_cast<std::uint64_t>(x.count() * y.count()) * sizeof no_label),
+        window_(window),
+        x_(x),
+        y_(y) {}
 
   void open_part(const std::optional<KeptTiles>& kept) override {
     stays_ = true;
     std::error_code ignored;
     is_finished_ = kept && kept->is_complete && !std::filesystem::exists(part_path(), ignored);
-    is_finished_ ? static_cast<void>(open_to_read(output_.path())) : labels_.open_part(kept);
+    is_finished_ ? static_cast<void>(open_to_read(output().path())) : PlacedFile::open_part(kept);
   }
-
-  std::string part_path() const override { return labels_.part_path(); }
 
   void join() override {
     stays_ = true;
-    labels_.join();
+    PlacedFile::join();
   }
 
   WrittenTile write(const TileLabels& labels) override {
@@ -67,29 +61,24 @@ class PlaneMap : public PlaneFile {
       row.clear();
       const std::uint32_t* const shown = labels.labels + (y_.shown(y) - top) * tile.width();
       for (std::int64_t x = first; x < end; ++x) row.push_back(shown[x_.shown(x) - left]);
-      labels_.write(static_cast<std::uint64_t>(y * x_.count() + first) * sizeof no_label, row.data(),
-                    row.size() * sizeof no_label);
+      write_at(static_cast<std::uint64_t>(y * x_.count() + first) * sizeof no_label, row.data(),
+               row.size() * sizeof no_label);
     }
     return {labels.number, 0};
   }
-
-  void sync() override { labels_.sync(); }
 
   void finish() override {
     if (is_finished_) return;
     const Grid grid(x_.count(), y_.count());
     std::vector<std::uint32_t> labels(grid.pixels());
-    labels_.read(0, labels.data(), labels.size() * sizeof no_label);
-    write_picture(output_, color_by_id(labels, grid));
+    read_at(0, labels.data(), labels.size() * sizeof no_label);
+    write_picture(output(), color_by_id(labels, grid));
     if (stays_) unlink(part_path().c_str());
   }
 
  private:
   Window window_;
-  std::int64_t step_;
   PictureAxis x_, y_;
-  OutputFile output_;
-  PlacedFile labels_;
   bool stays_ = false;
   bool is_finished_ = false;
 };
@@ -97,7 +86,10 @@ class PlaneMap : public PlaneFile {
 }  // namespace
 
 std::unique_ptr<PlaneFile> plane_map(const std::string& path, const Tiling& tiling) {
-  return std::make_unique<PlaneMap>(path, tiling.window());
+  const Window& window = tiling.window();
+  const std::int64_t step = (window.longest_side() - 1) / longest_side_of_map + 1;
+  return std::make_unique<PlaneMap>(path, window, PictureAxis{window.width(), step},
+                                    PictureAxis{window.height(), step});
 }
 
 }  // namespace vorocl::command

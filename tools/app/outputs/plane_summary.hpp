@@ -47,7 +47,7 @@ class PlaneTables {
   std::size_t sync();
 
   /// Writes the tables. Throws Error if the cells' areas do not add up to the pixels.
-  void finish(const Units& units, const std::function<PlaneRows()>& seeds);
+  void finish(const Units& units, const EachSeed& seeds);
 
  private:
   void read_sums(const std::string& path, std::size_t bytes);

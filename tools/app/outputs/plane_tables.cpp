@@ -51,22 +51,19 @@ class SharesByCell {
 
 /// Throws Error, and writes nothing, if the cells are not all that the plane's `pixels` make.
 void write_cells(const OutputFile& file, const PlaneCells& cells, const std::vector<PlaneCellPair>& pairs,
-                 const Units& units, const PlaneRows& seeds, std::uint64_t pixels) {
+                 const Units& units, const EachSeed& seeds, std::uint64_t pixels) {
   GrowingFile table(file);
-  const std::vector<std::string> names = {
-      "id",  "x",     "y",      "area",      "centroid_x", "centroid_y",    "left",
-      "top", "right", "bottom", "perimeter", "neighbours", "touches_border"};
+  const std::vector<std::string> names = cell_columns(CellsOf::tiles);
   const std::vector<CellColumn> columns = cell_columns_of(names);
-  table << header_of_cells(names, units, seeds.names);
   RowText row("");
   SharesByCell shares_by_cell(pairs);
   std::uint64_t summed = 0;
-  for (std::uint64_t id = 0; id < cells.size(); ++id) {
+  const auto begin = [&](const CsvFields& kept) { table << header_of_cells(names, units, kept); };
+  const auto add = [&](std::uint64_t id, const Point& place, const CsvFields& kept) {
     const PlaneCell cell = cells.cell(id);
-    if (cell.area == 0) continue;
+    if (cell.area == 0) return;
     summed += cell.area;
     const Shares shares = shares_by_cell.of(id);
-    const auto [place, kept] = seeds.next(id);
     CellValues values;
     values.id = static_cast<double>(id);
     values.seed = units.position(place);
@@ -78,9 +75,12 @@ void write_cells(const OutputFile& file, const PlaneCells& cells, const std::vec
     values.neighbours = static_cast<double>(shares.neighbours);
     values.touches_border = cell.touches_border ? 1 : 0;
     row.clear();
+    row.begin_row();
     add_cell(row, columns, values, &kept);
+    row.end_row();
     table << row.text();
-  }
+  };
+  seeds({begin, add});
   if (summed != pixels && summed > 0) {  // without any seed no pixel has a cell
     throw Error(
         fmt::format("{}: the cells have {} pixels and the plane has {}; what was kept of an earlier "
@@ -155,11 +155,11 @@ std::size_t PlaneTables::sync() {
   return sums_->sync();
 }
 
-void PlaneTables::finish(const Units& units, const std::function<PlaneRows()>& seeds) {
+void PlaneTables::finish(const Units& units, const EachSeed& seeds) {
   if (!is_asked_for() || is_finished_) return;
   cells_.add(recent_.take());
   const std::vector<PlaneCellPair> pairs = cells_.pairs();
-  if (cells_file_) write_cells(*cells_file_, cells_, pairs, units, seeds(), pixels_);
+  if (cells_file_) write_cells(*cells_file_, cells_, pairs, units, seeds, pixels_);
   if (adjacency_file_) write_pairs(*adjacency_file_, pairs, units);
   if (sums_) unlink(part_path().c_str());
 }

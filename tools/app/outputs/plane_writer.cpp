@@ -125,7 +125,7 @@ std::string PlaneWriter::kept() const {
                      complete_, tiling_.count(), fmt::join(part_paths(), ", "), journal_->path());
 }
 
-void PlaneWriter::finish(const Units& units, const std::function<PlaneRows()>& seeds) {
+void PlaneWriter::finish(const Units& units, const EachSeed& seeds) {
   checkpoint();
   if (journal_) journal_->finish();
   for (const auto& file : files_) file->finish();

@@ -73,7 +73,7 @@ class PlaneWriter {
   std::string kept() const;
 
   /// Gives the files their names.
-  void finish(const Units& units, const std::function<PlaneRows()>& seeds);
+  void finish(const Units& units, const EachSeed& seeds);
 
  private:
   /// The outputs' paths while they grow.

@@ -77,11 +77,10 @@ class RowText {
   fmt::memory_buffer text_;
 };
 
-/// Adds the rows of items, with `first` before each: `add` appends those of the items [begin, end) to a text.
-/// Threads make pieces, which are added in order.
+/// Adds the rows of items, with `first` before each: `add` appends the values of one to a text. Threads make
+/// pieces, which are added in order.
 template <typename Item, typename Add>
-void add_pieces(GrowingFile& table, const std::string& first, const std::vector<Item>& items,
-                const Add& add) {
+void add_rows(GrowingFile& table, const std::string& first, const std::vector<Item>& items, const Add& add) {
   constexpr std::size_t items_of_piece = 4096, most_pieces = 16;  // held at once
   std::vector<RowText> pieces;
   for (std::size_t i = 0; i < most_pieces; ++i) pieces.emplace_back(first);
@@ -91,24 +90,16 @@ void add_pieces(GrowingFile& table, const std::string& first, const std::vector<
     for (; count < most_pieces && begin < items.size(); ++count, begin += items_of_piece) {
       workers.add([&items, &add, &piece = pieces[count], begin] {
         piece.clear();
-        add(piece, items.data() + begin, items.data() + std::min(items.size(), begin + items_of_piece));
+        for (std::size_t i = begin; i < std::min(items.size(), begin + items_of_piece); ++i) {
+          piece.begin_row();
+          add(piece, items[i]);
+          piece.end_row();
+        }
       });
     }
     workers.wait();
     for (std::size_t i = 0; i < count; ++i) table << pieces[i].text();
   }
-}
-
-/// The same where `add` appends the values of one item.
-template <typename Item, typename Add>
-void add_rows(GrowingFile& table, const std::string& first, const std::vector<Item>& items, const Add& add) {
-  add_pieces(table, first, items, [&add](RowText& text, const Item* begin, const Item* end) {
-    for (const Item* item = begin; item != end; ++item) {
-      text.begin_row();
-      add(text, *item);
-      text.end_row();
-    }
-  });
 }
 
 }  // namespace vorocl::command

@@ -57,9 +57,14 @@ Bounds parse_bounds(const std::string& text, bool of_volumes) {
                : ""));
 }
 
-Axis data_axis(std::int64_t pixels, double low, double high, bool is_periodic, bool is_closed) {
-  const Axis axis(pixels, low, high);
-  return is_periodic ? axis.periodic() : is_closed ? axis.closed() : axis;
+Grid with_bounds(const Grid& pixels, const Bounds& bounds, bool closed, bool y_up) {
+  const auto along = [closed](const Axis& of, double low, double high) {
+    const Axis axis(of.pixels(), low, high);
+    return of.is_periodic() ? axis.periodic() : closed ? axis.closed() : axis;
+  };
+  const Axis x = along(pixels.x(), bounds.x0, bounds.x1), y = along(pixels.y(), bounds.y0, bounds.y1);
+  return pixels.is_volume() ? Grid(x, y, along(pixels.z(), bounds.z0, bounds.z1))
+                            : Grid(x, y_up ? y.reversed() : y);
 }
 
 std::string to_string(const Bounds& bounds) {
@@ -194,9 +199,7 @@ bool read(TrajectoryReader& reader, Frame& frame) {
 }  // namespace
 
 std::optional<Bounds> bounds_of(const Frame& frame) {
-  if (const std::optional<Box>& box = frame.box) {
-    return Bounds{box->x0, box->y0, box->x1, box->y1, box->z0, box->z1};
-  }
+  if (frame.box) return *frame.box;
   if (frame.positions.empty()) return std::nullopt;
   return frame.z.empty() ? bounding_box(frame.positions) : bounding_box(points_of(frame), true);
 }

@@ -22,8 +22,8 @@ Bounds parse_bounds(const std::string& text, bool of_volumes = false);
 
 std::string to_string(const Bounds& bounds);
 
-/// An axis of the data: a period, or closed where the bounds are those of points.
-Axis data_axis(std::int64_t pixels, double low, double high, bool is_periodic, bool is_closed);
+/// The grid with the bounds as its axes: periods, or closed where these are the bounds of points.
+Grid with_bounds(const Grid& pixels, const Bounds& bounds, bool closed, bool y_up = false);
 
 /// The axes by the names that --periodic and JSON give them.
 std::string to_string(Axes axes);

@@ -32,16 +32,15 @@ bool has_axis(Axes axes, std::size_t axis) { return (static_cast<unsigned>(axes)
 
 /// Without a size it has few voxels, which do not count.
 Grid grid_of(const SeedOptions& options, const std::array<Side, 3>& sides, Axes periodic) {
-  const auto axis = [&](std::int64_t voxels, std::size_t i) {
-    return data_axis(voxels, sides[i].low, sides[i].high, has_axis(periodic, i), true);
-  };
   for (std::size_t i = 0; i < 3; ++i) {
     if (has_axis(periodic, i) && sides[i].low == sides[i].high) {
       throw Error(fmt::format("there is no extent in {}, which is to be periodic", names[i]));
     }
   }
   const Grid voxels = options.size.value_or(Grid(1, 1, 2));
-  return {axis(voxels.width(), 0), axis(voxels.height(), 1), axis(voxels.depth(), 2)};
+  const auto& [x, y, z] = sides;
+  return with_bounds(Grid(voxels.width(), voxels.height(), voxels.depth(), periodic),
+                     {x.low, y.low, x.high, y.high, z.low, z.high}, true);
 }
 
 void check_inside(const std::vector<Point>& points, const std::vector<std::uint32_t>& ids, const Grid& grid) {
@@ -239,9 +238,7 @@ Grid rectangle_of(const SeedOptions& options, const Bounds& repeats, Axes period
   }
   check_bounds(shown, periodic);
   const bool closed = (!options.bounds && !options.domain) || options.outside == Outside::refuse;
-  return Grid(data_axis(1, shown.x0, shown.x1, has_x(periodic), closed),
-              data_axis(1, shown.y0, shown.y1, has_y(periodic), closed))
-      .tilted(tilt);
+  return with_bounds(Grid(1, 1, periodic), shown, closed).tilted(tilt);
 }
 
 void note_points(const SeedOptions& options, const Grid& grid, const std::vector<Point>& points) {

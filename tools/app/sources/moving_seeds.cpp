@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include "app/sources/bounds.hpp"
-#include "app/sources/random_seeds.hpp"
 #include "app/sources/trajectory_seeds.hpp"
 #include "app/terminal/console.hpp"
 
@@ -11,29 +10,30 @@ namespace vorocl::command {
 
 namespace {
 
+/// The paper's model: uniform steps, in each frame up to so many pixels along x and y. The window stays.
 class RandomWalk : public MovingSeeds {
  public:
   RandomWalk(const SeedOptions& seeds, const MotionOptions& motion)
-      : input_(read_input(seeds)),
-        motion_{*motion.step_length, seeds.rng_seed, motion.border},
-        frames_(*motion.frames.last) {
+      : input_(read_input(seeds)), rng_seed_(seeds.rng_seed), motion_(motion) {
     refuse_window(input_, "random motion");
-    input_.displacement = motion_.step_length;
+    input_.displacement = *motion.step_length;
   }
 
   const Input& frame() const override { return input_; }
   bool next() override {
-    if (frame_ == frames_) return false;
+    if (frame_ == *motion_.frames.last) return false;
     ++frame_;
     return true;
   }
-  void move(Seeds& seeds, Window& window) const override { motion_(seeds, window, frame_); }
-  std::optional<double> done() const override { return static_cast<double>(frame_) / frames_; }
+  void move(Seeds& seeds, Window&) const override {
+    random_step(seeds, *motion_.step_length, motion_.border, rng_seed_, static_cast<std::uint32_t>(frame_));
+  }
+  std::optional<double> done() const override { return static_cast<double>(frame_) / *motion_.frames.last; }
 
  private:
   Input input_;
-  RandomMotion motion_;
-  int frames_;
+  std::uint64_t rng_seed_;
+  MotionOptions motion_;
   int frame_ = 0;
 };
 

@@ -5,14 +5,12 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
-#include <utility>
 
 #include "app/sources/bounds.hpp"
 #include "app/sources/random_seeds.hpp"
 #include "app/sources/seed_input.hpp"
 #include "app/terminal/console.hpp"
 #include "formats/files.hpp"
-#include "formats/npy.hpp"
 #include "formats/point_files.hpp"
 #include "formats/values.hpp"
 
@@ -74,20 +72,14 @@ class SeedsHash {
   std::uint64_t sum_ = 0;
 };
 
-/// The plane with the bounds as its axes: whole periods, where it is periodic.
-Grid grid_of(const Bounds& bounds, const Grid& plane, bool y_up, bool closed) {
-  check_bounds(bounds, plane.periodic());
-  const Axis y = data_axis(plane.height(), bounds.y0, bounds.y1, plane.y().is_periodic(), closed);
-  return {data_axis(plane.width(), bounds.x0, bounds.x1, plane.x().is_periodic(), closed),
-          y_up ? y.reversed() : y};
-}
-
 /// Reads the file a second time, and adds its points as they lie in the plane.
 PlaneFacts map_points(const SeedOptions& options, const Grid& plane, const Survey& survey,
                       const PlaneReading& reading) {
   const Bounds bounds = options.bounds.value_or(widened(survey.box, options.margin));
   const Outside outside = options.outside.value_or(Outside::count);
-  const Grid data = grid_of(bounds, plane, points_up(options), !options.bounds || outside == Outside::refuse);
+  check_bounds(bounds, plane.periodic());
+  const Grid data =
+      with_bounds(plane, bounds, !options.bounds || outside == Outside::refuse, points_up(options));
   reading.reserve(survey.rows);
   SeedsHash hash;
   std::uint64_t points_outside = 0;
@@ -194,54 +186,40 @@ PlaneFacts read_plane_seeds(const SeedOptions& options, const PlaneReading& read
                                 : read_points(options, plane_of(options), reading);
 }
 
-PlaneRows rows_of_seeds(const SeedOptions& options, const PlaneFacts& facts) {
-  const auto width = static_cast<std::size_t>(plane_of(options).width());
-  if (options.random > 0) {
-    return {{}, [plane = plane_of(options), seed = options.rng_seed](std::uint64_t id) {
-              return std::pair(random_pixel(plane, static_cast<std::uint32_t>(id), seed), CsvFields());
-            }};
+void each_seed(const SeedOptions& options, const PlaneFacts& facts, const SeedRows& rows) {
+  if (!options.keep.empty()) {
+    const SteadyFile file(options.points);
+    CsvOptions csv = options.csv();
+    csv.reads_ids = false;  // labels number the rows
+    CsvReader reader(options.points, csv);
+    for (std::uint64_t id = 0; reader.next(); ++id) {
+      if (id == 0) rows.begin(reader.kept_names());
+      if (!std::isnan(reader.point().x) && !std::isnan(reader.point().y))
+        rows.add(id, facts.place(reader.point()), reader.kept());
+    }
+    return file.check();
   }
-  if (!options.mask.empty()) {
-    auto rows = std::make_shared<MaskRows>(options.mask, options.threshold);
-    return {{},
-            [=, x = width, y = 0.0, seen = std::uint64_t{0},
-             pixels = std::vector<std::uint8_t>()](std::uint64_t id) mutable {
-              for (; seen <= id; ++x) {
-                if (x >= width) {
-                  pixels.clear();
-                  rows->next(pixels);
-                  ++y;
-                  x = 0;
-                }
-                seen += pixels[x] != 0 ? 1 : 0;
-              }
-              return std::pair(Point{static_cast<double>(x) - 0.5, y - 0.5}, CsvFields());
-            }};
+  rows.begin({});
+  if (!options.points.empty()) {
+    read_in_blocks(options.points, options.csv(), {}, [&](std::uint64_t first, const Block& block) {
+      for (std::size_t i = 0; i < block.size(); ++i) {
+        if (block[i]) rows.add(first + i, facts.place(*block[i]), {});
+      }
+    });
   }
-  if (extension_of(options.points) == ".npy") {
-    auto points = std::make_shared<NpyPoints>(options.points);
-    return {{},
-            [=, place = facts.place, first = std::uint64_t{1},
-             block = std::vector<Point>()](std::uint64_t id) mutable {
-              if (id - first >= block.size()) {
-                first = id;
-                block = points->read(
-                    id, static_cast<std::size_t>(std::min<std::uint64_t>(block_points, points->size() - id)));
-              }
-              return std::pair(place(block[id - first]), CsvFields());
-            }};
+  for (std::size_t id = 0; id < options.random; ++id)
+    rows.add(id, random_pixel(plane_of(options), static_cast<std::uint32_t>(id), options.rng_seed), {});
+  if (options.mask.empty()) return;
+  MaskRows mask(options.mask, options.threshold);
+  std::vector<std::uint8_t> pixels;
+  std::uint64_t id = 0;
+  for (std::int64_t y = 0; y < mask.height(); ++y) {
+    pixels.clear();
+    mask.next(pixels);
+    for (std::size_t x = 0; x < pixels.size(); ++x) {
+      if (pixels[x] != 0) rows.add(id++, {static_cast<double>(x) + 0.5, static_cast<double>(y) + 0.5}, {});
+    }
   }
-  CsvOptions csv = options.csv();
-  csv.reads_ids = false;
-  auto reader = std::make_shared<CsvReader>(options.points, csv);
-  const auto advance = [reader, file = options.points] {
-    if (!reader->next()) throw Error(file + " has changed while it was read");
-  };
-  advance();
-  return {reader->kept_names(), [=, place = facts.place, at = std::uint64_t{0}](std::uint64_t id) mutable {
-            for (; at < id; ++at) advance();
-            return std::pair(place(reader->point()), reader->kept());
-          }};
 }
 
 PlaneFacts read_plane_mask(const std::string& path, MaskRows& rows, const std::function<bool()>& stops,

@@ -5,7 +5,6 @@
 #include <memory>
 #include <optional>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "app/sources/seed_input.hpp"
@@ -54,15 +53,16 @@ struct PlaneFacts {
   std::function<Point(const Point&)> place = [](const Point& point) { return point; };
 };
 
-/// What tables of cells have of seeds besides their cells.
-struct PlaneRows {
-  CsvFields names;  ///< of the kept columns
-  /// The seed's place, in pixels, and those columns. Ids come in ascending order.
-  std::function<std::pair<Point, CsvFields>(std::uint64_t id)> next;
+/// What takes the seeds one by one, as rows of tables of cells: first the names of the columns that are kept.
+struct SeedRows {
+  std::function<void(const CsvFields& names)> begin;
+  /// The seed's place, in pixels, and those columns. Ids ascend.
+  std::function<void(std::uint64_t id, const Point& place, const CsvFields& kept)> add;
 };
+using EachSeed = std::function<void(const SeedRows& rows)>;
 
-/// Opens the seeds' file once more, or makes random ones again. Throws Error if that fails.
-PlaneRows rows_of_seeds(const SeedOptions& options, const PlaneFacts& facts);
+/// Reads the seeds' file once more, or makes random ones again. Throws Error if that fails.
+void each_seed(const SeedOptions& options, const PlaneFacts& facts, const SeedRows& rows);
 
 /// Reads the seeds, or makes them, in blocks. Throws Error if it is told to stop, and if a file is bad or
 /// changes, which names the first point that cannot be a seed; warns on standard error as read_input().

@@ -58,8 +58,4 @@ std::vector<Point> random_points(const Grid& grid, const std::vector<float>& den
   return points;
 }
 
-void RandomMotion::operator()(Seeds& seeds, Window&, int frame) const {
-  random_step(seeds, step_length, border, rng_seed, static_cast<std::uint32_t>(frame));
-}
-
 }  // namespace vorocl::command

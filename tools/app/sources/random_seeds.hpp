@@ -1,5 +1,4 @@
-// Random seeds: the pixels of a plane that no device has to hold, points that are drawn by a density, and the
-// paper's model of motion.
+// Random seeds: the pixels of a plane that no device has to hold, and points that are drawn by a density.
 #pragma once
 
 #include <cstddef>
@@ -7,8 +6,6 @@
 #include <vector>
 
 #include "vorocl/grid.hpp"
-#include "vorocl/motion.hpp"
-#include "vorocl/seeds.hpp"
 
 namespace vorocl::command {
 
@@ -20,15 +17,5 @@ Point random_pixel(const Grid& grid, std::uint32_t id, std::uint64_t rng_seed);
 /// more.
 std::vector<Point> random_points(const Grid& grid, const std::vector<float>& density, std::size_t count,
                                  std::uint64_t rng_seed);
-
-/// Uniform steps: in each frame every seed moves by up to `step_length` pixels along x and y.
-struct RandomMotion {
-  int step_length = 0;
-  std::uint64_t rng_seed = 1;
-  Border border = Border::reflect;
-
-  /// Moves the seeds to the frame, as a simulation's motion. The window stays.
-  void operator()(Seeds& seeds, Window& window, int frame) const;
-};
 
 }  // namespace vorocl::command

@@ -34,44 +34,41 @@ void place_points(Input& input, const SeedOptions& options, std::vector<std::opt
   };
 }
 
-namespace {
-
-Axes periodic_axes(const SeedOptions& options) { return options.periodic.value_or(Axes::none); }
-
-/// The bounds, else the domain, else the points' bounding box.
-Mapping mapping_of(const SeedOptions& options, const std::vector<Point>& points) {
+Mapping mapping_of(const SeedOptions& options, const Bounds& bounds) {
   Mapping mapping;
-  if (options.bounds || options.domain) {
-    mapping.bounds = options.bounds ? *options.bounds : *options.domain;
-    mapping.closed = options.outside.value_or(Outside::count) == Outside::refuse;
-  } else {
-    mapping.bounds = widened(bounding_box(points), options.margin);
-  }
+  mapping.bounds = bounds;
   mapping.y_up = points_up(options);
   mapping.crs = options.crs;
   mapping.outside = options.outside.value_or(Outside::count);
-  mapping.periodic = periodic_axes(options);
+  mapping.closed = (!options.bounds && !options.domain) || mapping.outside == Outside::refuse;
+  mapping.periodic = options.periodic.value_or(Axes::none);
   mapping.domain = options.domain;
   mapping.in_pixels = in_pixels(options);
   mapping.snap = options.snapping();
   return mapping;
 }
 
+namespace {
+
+Axes periodic_axes(const SeedOptions& options) { return options.periodic.value_or(Axes::none); }
+
 /// Of a plane, in pixels of its picture.
 Input map_input(const SeedOptions& options, const CsvPoints& read) {
-  const Mapping mapping = mapping_of(options, read.points);
-  const Size picture = picture_size(options, mapping.bounds);
-  const Weights weights =
-      weights_of(options, read.values, read.ids,
-                 options.weight_column.empty() ? 1 : pixels_of_square(mapping.bounds, picture));
+  const Bounds bounds = options.bounds   ? *options.bounds
+                        : options.domain ? *options.domain
+                                         : widened(bounding_box(read.points), options.margin);
+  const Mapping mapping = mapping_of(options, bounds);
+  const Size picture = picture_size(options, bounds);
+  const Weights weights = weights_of(options, read.values, read.ids,
+                                     options.weight_column.empty() ? 1 : pixels_of_square(bounds, picture));
   const MappedPoints mapped = map_points(read.points, mapping, picture, read.ids);
-  warn_of_scales(mapping.bounds, picture.grid());
+  warn_of_scales(bounds, picture.grid());
   if (mapping.periodic != Axes::none && !options.bounds && !options.domain) {
     print_note(fmt::format("the period is the bounding box of the points{}, {}; {} says another one",
-                           options.margin > 0 ? " and its margin" : "", to_string(mapping.bounds),
+                           options.margin > 0 ? " and its margin" : "", to_string(bounds),
                            options.margin > 0 ? "--bounds" : "--domain"));
   }
-  note_outside(mapped.outside, read.points.size(), mapping.bounds, options.keeps_inside);
+  note_outside(mapped.outside, read.points.size(), bounds, options.keeps_inside);
   Input input = {mapped.view};
   input.is_window = mapped.is_window();
   place_points(input, options, {mapped.places.begin(), mapped.places.end()}, weights);
@@ -83,9 +80,7 @@ Input globe_input(const SeedOptions& options, std::vector<Point>& points) {
   const Bounds bounds = options.bounds.value_or(Bounds{-180, -90, 180, 90});
   const bool is_whole = bounds.x1 - bounds.x0 == 360;
   const Size picture = picture_size(options, bounds);
-  const Axis x = data_axis(picture.width(), bounds.x0, bounds.x1, is_whole, true);
-  const Axis y = data_axis(picture.height(), bounds.y0, bounds.y1, false, true);
-  const Grid grid(x, options.y_down ? y : y.reversed());
+  const Grid grid = with_bounds(picture.grid(is_whole ? Axes::x : Axes::none), bounds, true, !options.y_down);
   for (Point& point : points) {  // so that those beyond 180 degrees are drawn where they are
     if (std::abs(point.y) > 90)
       throw BadPoint(static_cast<std::size_t>(&point - points.data()), point,

@@ -158,6 +158,9 @@ struct Input {
 /// Throws Error for a window, or a diagram that is a part of the picture; `what` ("bench") takes none.
 void refuse_window(const Input& input, const std::string& what);
 
+/// How points become seeds where the picture shows these bounds.
+Mapping mapping_of(const SeedOptions& options, const Bounds& bounds);
+
 /// Has these points placed on the view's grid, where the options have them snapped or not.
 void place_points(Input& input, const SeedOptions& options, std::vector<std::optional<Point>> points,
                   const Weights& weights, Outside outside = Outside::count);

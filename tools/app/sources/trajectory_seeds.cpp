@@ -205,14 +205,8 @@ Size TrajectorySeeds::size_of_picture(const std::optional<Bounds>& bounds) const
 
 Mapping TrajectorySeeds::mapping_of_frame(const Bounds& bounds) const {
   const std::optional<Box>& box = read_.box;
-  Mapping mapping;
-  mapping.bounds = bounds;
-  mapping.outside = options_.outside.value_or(Outside::count);
-  mapping.closed = !options_.bounds || mapping.outside == Outside::refuse;
-  mapping.y_up = points_up(options_);
-  mapping.periodic = options_.periodic.value_or(box ? periodic_axes(*box, false) : Axes::none);
-  mapping.snap = options_.snapping();
-  mapping.in_pixels = in_pixels(options_);
+  Mapping mapping = mapping_of(options_, bounds);
+  if (box && !options_.periodic) mapping.periodic = periodic_axes(*box, false);
   mapping.has_one_scale = fit_ == Fit::all || options_.bounds;
   if (box) {
     mapping.domain = bounds_of(read_);

@@ -74,20 +74,15 @@ class Units {
   }
 
   /// Of a position in pixels of the picture.
-  double x(double pixels) const { return x_.at(pixels); }
-  double y(double pixels) const { return y_.at(pixels); }
-  double z(double pixels) const { return z_.at(pixels); }
-  Point position(const Point& pixels) const { return {x(pixels.x), y(pixels.y), z(pixels.z)}; }
+  Point position(const Point& pixels) const { return {x_.at(pixels.x), y_.at(pixels.y), z_.at(pixels.z)}; }
 
-  /// Where an area ends: in pixels its last column, row or slice, in data units the edge behind that.
-  double x_end(double last) const { return x_.at(last + behind()); }
-  double y_end(double last) const { return y_.at(last + behind()); }
-  double z_end(double last) const { return z_.at(last + behind()); }
-
-  /// The extent of an area from its first column and row to its end.
+  /// The extent of an area from its first column and row to its last ones: in data units to the edges behind
+  /// these.
   Extent extent(const Extent& pixels) const {
-    return {x_.at(pixels.left),   y_.at(pixels.top),   x_end(pixels.right),
-            y_end(pixels.bottom), z_.at(pixels.front), z_end(pixels.back)};
+    const double behind = area_in_data_ ? 1 : 0;
+    return {x_.at(pixels.left),           y_.at(pixels.top),
+            x_.at(pixels.right + behind), y_.at(pixels.bottom + behind),
+            z_.at(pixels.front),          z_.at(pixels.back + behind)};
   }
 
   double area(double pixels) const { return area_.of(pixels); }
@@ -130,8 +125,6 @@ class Units {
   const char* length_title() const { return length_in_data_ && !is_globe_ ? "data units" : of_length(); }
 
  private:
-  double behind() const { return area_in_data_ ? 1 : 0; }
-
   static std::string spacing_unit(const std::array<AxisScale, 3>& axes) {
     std::string text;
     for (const AxisScale& axis : axes)

@@ -11,27 +11,32 @@
 
 namespace vorocl::command {
 
-/// Its functions are those that PlaneFile has of these names.
-class PlacedFile {
+class PlacedFile : public PlaneFile {
  public:
-  /// Throws Error as OutputFile, for a pipe or a device, and if the disk has too little space.
-  PlacedFile(const std::string& path, std::uint64_t bytes);
+  /// A file that begins with a header, of so many bytes in all. Throws Error as OutputFile, for a pipe or a
+  /// device, and if the disk has too little space.
+  PlacedFile(const std::string& path, std::uint64_t bytes, std::string header = "");
 
-  void open();
-  void open_part(const std::optional<KeptTiles>& kept);
-  std::string part_path() const { return output_.part_path(); }
-  void join();
-  void write(std::uint64_t place, const void* bytes, std::size_t count);
-  void read(std::uint64_t place, void* bytes, std::size_t count);
-  void sync();
-  void finish();
+  void open() override;
+  void open_part(const std::optional<KeptTiles>& kept) override;
+  std::string part_path() const override { return output_.part_path(); }
+  void join() override;
+  void sync() override { file_->sync(); }
+  void finish() override { file_->finish(); }
+
+ protected:
+  const OutputFile& output() const { return output_; }
+  std::size_t header_bytes() const { return header_.size(); }
+  void write_at(std::uint64_t place, const void* bytes, std::size_t count);
+  void read_at(std::uint64_t place, void* bytes, std::size_t count);
 
  private:
-  /// Takes all the space, so that a full disk is noticed now.
-  void reserve();
+  /// Takes all the space, so that a full disk is noticed now, and writes the header.
+  void begin();
 
   OutputFile output_;
   std::uint64_t bytes_;
+  std::string header_;
   std::unique_ptr<GrowingFile> file_;
 };
 

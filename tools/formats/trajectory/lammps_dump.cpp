@@ -75,9 +75,6 @@ std::array<Sides, 3> parse_boundary(const LineReader& lines, const std::vector<s
 
 }  // namespace
 
-LammpsDump::LammpsDump(LineReader lines, std::string value_column, Wanted wanted)
-    : lines_(std::move(lines)), value_column_(std::move(value_column)), rows_(wanted) {}
-
 bool LammpsDump::next(Frame& frame) {
   if (!lines_.next_filled()) return false;
   Header header;

@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 
 #include "formats/trajectory/line_reader.hpp"
 #include "formats/trajectory/particle_rows.hpp"
@@ -11,15 +12,27 @@
 
 namespace vorocl::command {
 
+/// Of text, with the rows of a frame one after the other.
+class TextTrajectory : public TrajectoryReader {
+ public:
+  TextTrajectory(LineReader lines, std::string value_column, Wanted wanted)
+      : lines_(std::move(lines)), value_column_(std::move(value_column)), rows_(wanted) {}
+  std::optional<std::uintmax_t> bytes_left() const override { return lines_.bytes_left(); }
+
+ protected:
+  LineReader lines_;
+  std::string value_column_;
+  ParticleRows rows_;
+};
+
 /// LAMMPS text dumps of the styles atom and custom.
 ///
 /// Each frame is a few sections, "ITEM: NAME" with lines after it, of which ATOMS is the last. The columns'
 /// names follow in that line; positions are x y, scaled xs ys, unwrapped xu yu, or both, xsu ysu.
-class LammpsDump : public TrajectoryReader {
+class LammpsDump : public TextTrajectory {
  public:
-  LammpsDump(LineReader lines, std::string value_column, Wanted wanted);
+  using TextTrajectory::TextTrajectory;
   bool next(Frame& frame) override;
-  std::optional<std::uintmax_t> bytes_left() const override { return lines_.bytes_left(); }
 
  private:
   struct Header {
@@ -33,10 +46,6 @@ class LammpsDump : public TrajectoryReader {
   /// The box from the present line, ITEM: BOX BOUNDS, of which the rest is the title, and the three after it.
   SimulationBox read_box(std::string_view title, std::size_t frame_line);
   void next_value(std::size_t frame_line);
-
-  LineReader lines_;
-  std::string value_column_;
-  ParticleRows rows_;
 };
 
 /// XYZ files, plain and extended.
@@ -45,16 +54,10 @@ class LammpsDump : public TrajectoryReader {
 /// x, y, z and maybe more. An extended file's comment holds key=value pairs, of which these matter: Timestep,
 /// Lattice (the nine components of the box's edges), Origin (its corner), pbc (which axes are periodic; all,
 /// without it; the box grows on others) and Properties (what the columns are, among them pos and maybe id).
-class Xyz : public TrajectoryReader {
+class Xyz : public TextTrajectory {
  public:
-  Xyz(LineReader lines, std::string value_column, Wanted wanted);
+  using TextTrajectory::TextTrajectory;
   bool next(Frame& frame) override;
-  std::optional<std::uintmax_t> bytes_left() const override { return lines_.bytes_left(); }
-
- private:
-  LineReader lines_;
-  std::string value_column_;
-  ParticleRows rows_;
 };
 
 }  // namespace vorocl::command

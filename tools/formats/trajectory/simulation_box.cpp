@@ -81,10 +81,12 @@ bool is_negligible(double length, double beside) { return std::abs(length) <= 1e
 
 SimulationBox::SimulationBox(const LineReader& lines, const BoxAxis& x, const BoxAxis& y, const BoxAxis& z,
                              double tilt, double xz, double yz)
-    : x_(x), y_(y), z_(z), tilt_(tilt), box_{x.low, y.low, x.high, y.high, x.periodic(), y.periodic(), tilt} {
-  box_.z0 = z.low;
-  box_.z1 = z.high;
+    : x_(x), y_(y), z_(z), tilt_(tilt) {
+  static_cast<Bounds&>(box_) = {x.low, y.low, x.high, y.high, z.low, z.high};
+  box_.periodic_x = x.periodic();
+  box_.periodic_y = y.periodic();
   box_.periodic_z = z.periodic();
+  box_.tilt = tilt;
   box_.xz = is_negligible(xz, x.length()) ? 0 : xz;
   box_.yz = is_negligible(yz, y.length()) ? 0 : yz;
   box_.open_x0 = x.sides.first == Side::open;

@@ -7,19 +7,15 @@
 #include <string>
 #include <vector>
 
+#include "formats/raster.hpp"
 #include "formats/values.hpp"
 #include "vorocl/grid.hpp"
 
 namespace vorocl::command {
 
-/// The rectangle that a frame fills, in data units.
-struct Box {
-  double x0 = 0;
-  double y0 = 0;
-  double x1 = 0;
-  double y1 = 0;
-  bool periodic_x = false;
-  bool periodic_y = false;
+/// The rectangle that a frame fills, in data units, with what is known of z.
+struct Box : Bounds {
+  bool periodic_x = false, periodic_y = false, periodic_z = false;
   /// How far the copy of the box above it (at greater y) is shifted in x. Only where both axes are periodic:
   /// the box is then the rectangle that has the same particles.
   double tilt = 0;
@@ -27,12 +23,8 @@ struct Box {
   bool open_x0 = false, open_y0 = false, open_x1 = false, open_y1 = false;
   /// By how many degrees the file's box is turned in its plane; here it is turned back, with its particles.
   double turned = 0;
-  /// Of a volume.
-  double z0 = 0;
-  double z1 = 0;
-  bool periodic_z = false;
-  double xz = 0,
-         yz = 0;  ///< how far the copy at greater z is shifted in x and y, where those axes are periodic
+  /// Of a volume, how far the copy at greater z is shifted in x and y, where those axes are periodic.
+  double xz = 0, yz = 0;
 };
 
 /// One state of the particles, in canonical form: it does not depend on the order of the file's rows nor on

@@ -165,9 +165,6 @@ RowLayout parse_layout(const LineReader& lines, const Pairs& pairs, const std::s
 
 }  // namespace
 
-Xyz::Xyz(LineReader lines, std::string value_column, Wanted wanted)
-    : lines_(std::move(lines)), value_column_(std::move(value_column)), rows_(wanted) {}
-
 bool Xyz::next(Frame& frame) {
   if (!lines_.next_filled()) return false;
   const ParticleCount count = parse_count(lines_);
