@@ -109,8 +109,7 @@ void prepare_volumes(const Device& device) {
     const Seeds seeds = Seeds::random(device, grid, 1000, 1);
     Diagram diagram(device, grid), other(device, grid);
     for (const Method& each : methods()) {
-      const bool takes_them = each.volumes && !(each.exact && device.tuning().shape == Shape::group);
-      if (takes_them) each.run(seeds, diagram, {});
+      if (each.volumes) each.run(seeds, diagram, {});
     }
     method("jfa").run(seeds, other, {});
     Field<std::int32_t> squares;
@@ -125,7 +124,6 @@ void prepare_volumes(const Device& device) {
     distance_errors(other, diagram, wrong);
     measure_cells(diagram);
     diagram.wait();
-    if (device.tuning().shape == Shape::group) continue;
     const Seeds between_centres(device, grid, {{1.25, 2.5, 3.75}});
     exact_diagram(between_centres, diagram);
     method("jfa").run(between_centres, other, {});

@@ -50,8 +50,8 @@ struct ExactOptions {
 ///
 /// In a volume: of several seeds at the least distance the one that comes first by z, then y, then x. 4
 /// bytes of device memory per voxel, the labels, and 34 per seed besides its place. Snapped seeds that stand
-/// close together, and those of masks, cost what their voxels do. Throws Error for the Manhattan metric, and
-/// with Shape::group, as on a GPU, for others than these. docs/volumes.md says how and how fast.
+/// close together, and those of masks, cost what their voxels do. Throws Error for the Manhattan metric.
+/// docs/volumes.md says how and how fast.
 VOROCL_API Report exact_diagram(const Seeds& seeds, Diagram& diagram, const ExactOptions& options = {});
 
 }  // namespace vorocl

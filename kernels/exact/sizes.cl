@@ -20,10 +20,16 @@
 #define SIDE_OF_VOLUME 32
 
 // In the group shape a work-group of 32, 64, 128 or 256 items labels a patch, a square of pixels, or a part
-// of one that has a crowd.
+// of one that has a crowd, or a box of a volume.
 #define PATCH_BITS 5
 #define PATCH (1 << PATCH_BITS)
-#define CROWD_SIDE 16
+#define CROWD_SIDE 16  // and that of a box in a volume of one slice
+#define BOX_WIDTH 8
+#define BOX_HEIGHT 8
+#define BOX_DEPTH 4
+#if BOX_WIDTH * BOX_HEIGHT * BOX_DEPTH != CROWD_SIDE * CROWD_SIDE
+#error "All boxes have as many pixels"
+#endif
 #define MOST_OF_CROWD_ITEMS 64
 
 #define BUCKETS 256            // of rows of bins, into which places are sorted first

@@ -24,19 +24,6 @@ def points_in(shape, count, seed):
     return np.random.default_rng(seed).uniform(0, shape[::-1], (count, 3))
 
 
-def device_is_exact():
-    """Exact diagrams of volumes are for CPUs."""
-    try:
-        vorocl.diagram([(0, 0, 0)], (2, 2, 2))
-    except vorocl.BadArgument:
-        return False
-    return True
-
-
-exact_alone = pytest.mark.skipif(not device_is_exact(), reason="exact diagrams of volumes are made by CPUs")
-
-
-@exact_alone
 @pytest.mark.parametrize("shape", SHAPES)
 @pytest.mark.parametrize("count", [1, 5, 60])
 @pytest.mark.parametrize("snap", [True, False])
@@ -52,7 +39,6 @@ def power_of(points, weights, shape, labels, is_periodic):
     return (np.minimum(ways, sides - ways if is_periodic else np.inf) ** 2).sum(-1) - weights[labels]
 
 
-@exact_alone
 @pytest.mark.parametrize("is_periodic", [True, False])
 @pytest.mark.parametrize("on_grid", [True, False])
 @pytest.mark.parametrize("side", [1, 6, 40])  # of the heaviest
@@ -102,7 +88,6 @@ def test_weights_of_planes_and_of_frames():
         vorocl.diagram(points, (64, 64), bounds=(0, 0, 64, 32), weights=weights)
 
 
-@exact_alone
 @pytest.mark.parametrize("shape", [(60, 50, 70), (3, 1, 40)])
 @pytest.mark.parametrize("count", [1, 20, 3000])
 @pytest.mark.parametrize("snap", [True, False])
@@ -121,7 +106,6 @@ def test_periodic_labels_are_those_of_a_k_d_tree(shape, count, snap):
     assert vorocl.errors(labels, points, periodic=(True, True, True), truth=truth).wrong_pixels == 0
 
 
-@exact_alone
 @pytest.mark.parametrize("kind", ["line", "sphere", "one voxel", "one point"])
 def test_crowds_have_no_farther_label(kind):
     shape, rng = (40, 50, 45), np.random.default_rng(8)
@@ -149,7 +133,6 @@ def test_jump_flooding_is_judged_by_exact_labels():
     assert 99 < vorocl.similarity(flooded, expected) <= 100
 
 
-@exact_alone
 def test_errors_and_distances():
     shape = (12, 20, 30)
     points = points_in(shape, 40, 2)
@@ -167,7 +150,6 @@ def test_errors_and_distances():
     assert abs(vorocl.distances(points, shape) - snapped).max() > 0.3
 
 
-@exact_alone
 def test_objects_take_volumes():
     shape = (6, 7, 8)
     seeds = vorocl.Seeds([(1.2, 2.5, 3.9), (np.nan, 0, 0), (7, 6, 5)], shape)
@@ -226,7 +208,6 @@ def test_adjacent_cells_share_faces(shape):
     assert np.array_equal(diagram.cells()["perimeter"], surface)
 
 
-@exact_alone
 def test_volumes_lie_in_the_units_of_the_points():
     rng = np.random.default_rng(3)
     shape, bounds = (6, 7, 8), (-1.0, 10.0, 5.0, 3.0, 13.5, 8.0)  # 2 voxels in a unit
@@ -290,14 +271,12 @@ WRONG_CALLS = [
 ]
 
 
-@exact_alone
 @pytest.mark.parametrize("call, words", WRONG_CALLS)
 def test_what_volumes_cannot_be_is_refused(call, words):
     with pytest.raises(vorocl.Error, match=words):
         call()
 
 
-@exact_alone
 @pytest.mark.parametrize("shape, spacing", [((14, 9, 12), (1, 2, 4)), ((31, 40), (3, 1))])
 @pytest.mark.parametrize("periodic", [False, True])
 def test_voxels_may_be_longer_along_an_axis(shape, spacing, periodic):

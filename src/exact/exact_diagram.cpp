@@ -15,7 +15,6 @@ Report exact_diagram(const Seeds& seeds, Diagram& diagram, const ExactOptions& o
     throw Error("exact diagrams of volumes are Euclidean; jump flooding takes the Manhattan metric");
   }
   if (labels_by_passes(filling, state)) return exact_diagram_by_passes(filling, state);
-  if (state.grid.is_volume()) check_exact_volume(state);
   return exact_diagram_by_places(filling, state);
 }
 

@@ -51,7 +51,7 @@ Places places_of(Filling& filling) {
           false};
 }
 
-std::size_t along(int pixels, int bits) { return (static_cast<std::size_t>(pixels - 1) >> bits) + 1; }
+std::size_t boxes_along(int pixels, int side) { return static_cast<std::size_t>((pixels - 1) / side) + 1; }
 
 /// Bins as near to squares or cubes as powers of two come, with PLACES_OF_BIN each. Rather high than wide: a
 /// walk takes bins of a row at once.
@@ -78,14 +78,6 @@ std::size_t chunks_of(std::size_t seeds) { return seeds < 4096 ? 1 : seeds < 655
 
 }  // namespace
 
-void check_exact_volume(const DiagramState& state) {
-  if (state.device.tuning().shape == Shape::group) {
-    throw Error(
-        "exact diagrams of volumes are made by CPUs alone, but for masks and dense snapped seeds, and " +
-        state.device.name() + " is tuned as a GPU: take jump flooding, or a CPU");
-  }
-}
-
 Report exact_diagram_by_places(Filling& filling, DiagramState& state) {
   const auto [grid, given, given_ids, order, have_ids, count, first, last, in_pixels] = places_of(filling);
   const Device device = without_vectors(state.device);  // kernels have vectors of their own
@@ -100,8 +92,9 @@ Report exact_diagram_by_places(Filling& filling, DiagramState& state) {
   }
   const cl_int has_ids = have_ids;
   const cl_int4 size = {{grid.width(), grid.height(), grid.depth(), 0}}, bits = bits_of_bins(grid, count);
-  const std::size_t rows = along(grid.height(), bits.s[1]) * along(grid.depth(), bits.s[2]);
-  const std::size_t entries = rows * (along(grid.width(), bits.s[0]) + 1), room = count + BEHIND_PLACES;
+  const auto bins_along = [&](int axis) { return boxes_along(size.s[axis], 1 << bits.s[axis]); };
+  const std::size_t rows = bins_along(1) * bins_along(2);
+  const std::size_t entries = rows * (bins_along(0) + 1), room = count + BEHIND_PLACES;
   auto& [counts, ends, sorted, table, starts, x, y, z, ids, lags, pending, queue] =
       state.workspace<PlacesWorkspace>();
   state.reserve(starts, (entries + 1) * word);
@@ -127,14 +120,11 @@ Report exact_diagram_by_places(Filling& filling, DiagramState& state) {
     const std::size_t items_of_places = std::max<std::size_t>(count, 1);
     const std::size_t most_of_row = std::min<std::size_t>(group, MOST_ITEMS_OF_ROW);
     std::size_t items_of_row = 1;
-    while (items_of_row < std::min(along(grid.width(), bits.s[0]), most_of_row)) items_of_row *= 2;
+    while (items_of_row < std::min(bins_along(0), most_of_row)) items_of_row *= 2;
     cl_uint table_bits = 1;
     while (std::size_t{1} << table_bits < 2 * items_of_places) ++table_bits;
     const std::size_t of_table = (std::size_t{1} << table_bits) + items_of_places;
     state.reserve(table, of_table * word);
-    const std::size_t patches = along(grid.width(), PATCH_BITS) * along(grid.height(), PATCH_BITS);
-    state.reserve(pending, patches * word);
-    state.reserve(queue, (1 + patches) * word);
     const cl::Event begin = fill(state.device, starts, cl_uint{0}, entries + 1);
     fill(state.device, table, ~cl_uint{0}, of_table);
     kernel("find_repeats", group)
@@ -143,22 +133,33 @@ Report exact_diagram_by_places(Filling& filling, DiagramState& state) {
         .over_items(items_of_places, given, table_bits, table, count, bits, size, starts);
     kernel("start_bins", items_of_row).over_items(rows * items_of_row, starts, bits, size);
     kernel("list_places", group)
-        .over_items(items_of_places, given, table_bits, table, count, bits, size, of_seeds, starts, x, y, ids,
-                    of_lags);
+        .over_items(items_of_places, given, table_bits, table, count, bits, size, of_seeds, starts, x, y,
+                    of_z, ids, of_lags);
     // Lambdas take no structured bindings but by names of their own.
     const auto label = [&, &of_starts = starts, &of_x = x, &of_y = y, &of_ids = ids, &of_order = order,
                         of_first = first, of_last = last](const char* name, std::size_t items_of_group,
                                                           std::size_t groups, const auto&... more) {
       return kernel(name, items_of_group)
-          .over_items(groups * items_of_group, of_starts, of_x, of_y, of_ids, of_lags, of_order, has_ids,
-                      bits, size, of_first, of_last, state.labels, more...);
+          .over_items(groups * items_of_group, of_starts, of_x, of_y, of_z, of_ids, of_lags, of_order,
+                      has_ids, bits, size, of_first, of_last, state.labels, more...);
     };
-    const std::size_t items = device.tuning().patch_items;
+    const std::size_t items = device.tuning().patch_items,
+                      items_of_crowd = std::min<std::size_t>(items, MOST_OF_CROWD_ITEMS);
+    if (grid.is_volume()) {
+      const bool is_flat = grid.depth() == 1;
+      const std::size_t boxes = boxes_along(grid.width(), is_flat ? CROWD_SIDE : BOX_WIDTH) *
+                                boxes_along(grid.height(), is_flat ? CROWD_SIDE : BOX_HEIGHT) *
+                                boxes_along(grid.depth(), BOX_DEPTH);
+      return filling.commit(0, begin,
+                            label(is_flat ? "label_squares" : "label_boxes", items_of_crowd, boxes));
+    }
+    const std::size_t patches = boxes_along(grid.width(), PATCH) * boxes_along(grid.height(), PATCH);
+    state.reserve(pending, patches * word);
+    state.reserve(queue, (1 + patches) * word);
     constexpr std::size_t crowds_along = PATCH / CROWD_SIDE, crowds_of_patch = crowds_along * crowds_along;
     label("stamp_patches", items, patches, pending, queue);
     label("list_patches", items, patches, pending, queue);
-    const cl::Event end = label("label_crowds", std::min<std::size_t>(items, MOST_OF_CROWD_ITEMS),
-                                crowds_of_patch * patches, queue);
+    const cl::Event end = label("label_crowds", items_of_crowd, crowds_of_patch * patches, queue);
     return filling.commit(0, begin, end);
   }
   const std::size_t chunks = chunks_of(count);
@@ -177,9 +178,8 @@ Report exact_diagram_by_places(Filling& filling, DiagramState& state) {
   kernel("sort_buckets", 1)
       .over_items(BUCKETS, sorted, bits, size, shift, ends, of_seeds, starts, x, y, of_z, ids, of_lags);
   const int side = grid.is_volume() ? SIDE_OF_VOLUME : SIDE_OF_PLANE;
-  const auto items_along = [side](int pixels) { return static_cast<std::size_t>(pixels - 1) / side + 1; };
   const std::size_t items =
-      items_along(grid.width()) * items_along(grid.height()) * items_along(grid.depth());
+      boxes_along(grid.width(), side) * boxes_along(grid.height(), side) * boxes_along(grid.depth(), side);
   const cl::Event end = kernel("label_regions", 1)
                             .over_items(items, starts, x, y, of_z, ids, of_lags, order, has_ids, bits, size,
                                         first, last, state.labels);

@@ -6,10 +6,7 @@
 
 namespace vorocl {
 
-/// Throws Error on devices of the group shape.
-void check_exact_volume(const DiagramState& state);
-
-/// Labels the diagram by lists of places (kernels/exact). That of a volume was checked.
+/// Labels the diagram by lists of places (kernels/exact).
 Report exact_diagram_by_places(Filling& filling, DiagramState& state);
 
 }  // namespace vorocl

@@ -103,12 +103,9 @@ const std::vector<Particle> some = {{90, {1.25, 2, -0.75}}, {4, {9.75, 19.5, 4.7
                             others = {{5, {5.25, 21, 4.25}}, {90, {1.25, 2, -0.25}}};
 
 /// Exact diagrams of volumes are for CPUs.
-bool can_be_exact() { return test_device().tuning().shape == Shape::vector; }
-
 }  // namespace
 
 BOOST_AUTO_TEST_CASE(dumps_make_volumes_frame_by_frame) {
-  if (!can_be_exact()) return;
   const TemporaryFolder folder;
   folder.file("a.lammpstrj", dump_frame(7, first, some, false) + dump_frame(8, second, others, true));
   const std::string of_file = "--trajectory a.lammpstrj --size 20x40x12 ";
@@ -146,7 +143,6 @@ BOOST_AUTO_TEST_CASE(what_is_complete_of_a_run_stays) {
 }
 
 BOOST_AUTO_TEST_CASE(xyz_and_points_make_volumes) {
-  if (!can_be_exact()) return;
   const TemporaryFolder folder;
   std::string
       xyz = "3\nLattice=\"10 0 0 0 20 0 0 0 6\" Origin=\"0 0 -1\" pbc=\"T T T\" Properties=id:I:1:pos:R:3\n",
@@ -217,7 +213,6 @@ std::vector<std::uint32_t> labels_in(const std::string& file) {
 }  // namespace
 
 BOOST_AUTO_TEST_CASE(cells_of_files_have_their_ids_and_units) {
-  if (!can_be_exact()) return;
   const TemporaryFolder folder;
   const Space box = {{0, 0, -1}, {10, 20, 5}, {false, false, false}};
   folder.file("a.lammpstrj", dump_frame(6, first, others, false) + dump_frame(7, box, some, false));
@@ -300,7 +295,6 @@ BOOST_AUTO_TEST_CASE(cells_of_files_have_their_ids_and_units) {
 }
 
 BOOST_AUTO_TEST_CASE(voxels_that_are_no_cubes_count_as_they_are_long) {
-  if (!can_be_exact()) return;
   const TemporaryFolder folder;
   Space open = first, moved = second;
   open.periodic = moved.periodic = {false, false, false};
@@ -408,7 +402,6 @@ std::string with_frames(const std::vector<std::pair<std::string, std::string>>& 
 }  // namespace
 
 BOOST_AUTO_TEST_CASE(tables_of_all_frames_are_those_of_each) {
-  if (!can_be_exact()) return;
   const TemporaryFolder folder;
   folder.file("a.lammpstrj", dump_frame(7, first, some, false) + dump_frame(9, first, others, true));
   const std::string dump = " --trajectory a.lammpstrj --size 20x40x12 ";
@@ -462,7 +455,6 @@ BOOST_AUTO_TEST_CASE(tables_of_all_frames_are_those_of_each) {
 }
 
 BOOST_AUTO_TEST_CASE(frames_share_what_does_not_repeat) {
-  if (!can_be_exact()) return;
   const TemporaryFolder folder;
   // Along y the periods are those of each frame; x and z are what both fill, by walls and by particles.
   Space low = {{0, 0, -1}, {8, 20, 4}, {false, true, false}}, high = {{2, 2, 0}, {10, 23, 5}, low.periodic};
@@ -519,7 +511,6 @@ BOOST_AUTO_TEST_CASE(frames_share_what_does_not_repeat) {
 }
 
 BOOST_AUTO_TEST_CASE(flooding_is_compared_with_exact_labels) {
-  if (!can_be_exact()) return;
   const TemporaryFolder folder;
   constexpr std::size_t side = 48;
   const std::string melt =
@@ -565,7 +556,6 @@ BOOST_AUTO_TEST_CASE(flooding_is_compared_with_exact_labels) {
 }
 
 BOOST_AUTO_TEST_CASE(image_data_lie_where_the_data_lie) {
-  if (!can_be_exact()) return;
   const TemporaryFolder folder;
   folder.file("a.lammpstrj", dump_frame(7, first, some, false));
   const std::string dump = "--trajectory a.lammpstrj --size 20x40x12 ";
@@ -587,7 +577,6 @@ BOOST_AUTO_TEST_CASE(image_data_lie_where_the_data_lie) {
 }
 
 BOOST_AUTO_TEST_CASE(labels_of_particles_are_compared_with_theirs) {
-  if (!can_be_exact()) return;
   const TemporaryFolder folder;
   folder.file("a.lammpstrj", dump_frame(7, first, some, false));
   std::string labels = labels_of(first, some);

@@ -263,11 +263,12 @@ void make_volumes(const Device& device, const Grid& grid) {
   }
 }
 
-/// Points within their voxels: few, dense ones, many on one point and on a line, on a sphere.
+/// Points within their voxels: few, dense ones, many on one point and on a line, on a sphere. A plane that is
+/// spaced is a volume of one slice.
 void make_volumes_of_points(const Device& device) {
-  for (const Grid& grid : {Grid(20, 9, 6), Grid(18, 13, 7, Axes::xyz),
+  for (const Grid& grid : {Grid(20, 9, 6), Grid(18, 13, 7, Axes::xyz), Grid(Axis(20).spaced(2), Axis(9)),
                            Grid(Axis(19).spaced(2), Axis(9).periodic(), Axis(5).spaced(3))}) {
-    for (int kind = 0; kind < 5; ++kind) {
+    for (int kind = 0; kind < (grid.depth() > 1 ? 5 : 4); ++kind) {
       std::vector<Spot> seeds;
       const std::int64_t x = grid.width() * parts, y = grid.height() * parts, z = grid.depth() * parts;
       for (std::int64_t i = 0; i < (kind == 0 ? 3 : 150); ++i) {
@@ -539,7 +540,8 @@ int main() {
   measure_many_cells(device, Grid(13, 9));
   measure_islands(device);
   const Device for_volumes = device.with_tuning({4, 4, 2, Shape::vector, 32});
-  make_volumes_of_points(for_volumes);
+  for (const Shape shape : {Shape::group, Shape::vector})
+    make_volumes_of_points(device.with_tuning({4, 4, 2, shape, 32}));
   make_volumes(for_volumes, Grid(20, 12, 9));
   make_volumes(for_volumes, Grid(Axis(18).periodic(), Axis(11).periodic().spaced(2), Axis(5).periodic()));
   cut_exact_cells(device);

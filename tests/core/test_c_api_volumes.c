@@ -68,22 +68,14 @@ static size_t differences(const vorocl_diagram* diagram) {
   return count;
 }
 
-/* Exact diagrams of volumes are for CPUs: others say so. */
-static void test_methods(const vorocl_device* device, const vorocl_seeds* seeds, vorocl_diagram* diagram,
-                         const vorocl_diagram* right) {
-  vorocl_tuning tuning;
+static void test_methods(const vorocl_seeds* seeds, vorocl_diagram* diagram, const vorocl_diagram* right) {
   vorocl_wrong_labels wrong;
   uint32_t flooded[voxels];
   size_t farther = 0;
   double percent = 0;
-  OK(vorocl_device_tuning(device, &tuning));
-  if (tuning.shape == VOROCL_VECTOR) {
-    OK(vorocl_run("exact", seeds, diagram, NULL));
-    CHECK(differences(diagram) == 0);
-    FAILS(run("exact", seeds, diagram, VOROCL_MANHATTAN), VOROCL_BAD_ARGUMENT, "are Euclidean");
-  } else {
-    FAILS(vorocl_run("exact", seeds, diagram, NULL), VOROCL_BAD_ARGUMENT, "by CPUs alone");
-  }
+  OK(vorocl_run("exact", seeds, diagram, NULL));
+  CHECK(differences(diagram) == 0);
+  FAILS(run("exact", seeds, diagram, VOROCL_MANHATTAN), VOROCL_BAD_ARGUMENT, "are Euclidean");
   OK(vorocl_run("jfa", seeds, diagram, NULL));
   OK(vorocl_diagram_read(diagram, flooded, voxels));
   for (int voxel = 0; voxel < voxels; ++voxel) {
@@ -227,7 +219,7 @@ static void test_volume(const vorocl_device* device, vorocl_periodic periodic, i
   OK(vorocl_diagram_window(diagram, &all));
   CHECK(all.width == columns && all.height == rows && all.z == 0 && all.depth == slices);
   OK(vorocl_diagram_write(right, labels, voxels, seeds, VOROCL_EUCLIDEAN));
-  test_methods(device, seeds, diagram, right);
+  test_methods(seeds, diagram, right);
   test_cells(right);
   test_fields(right);
   vorocl_diagram_free(diagram);

@@ -136,7 +136,7 @@ BOOST_AUTO_TEST_CASE(a_distance_transform_of_buffers_takes_few_commands_and_read
   }
 }
 
-BOOST_AUTO_TEST_CASE(a_dense_volume_takes_few_commands_and_reads_nothing) {
+BOOST_AUTO_TEST_CASE(a_volume_takes_few_commands_and_reads_nothing) {
   const Grid grid(64, 64, 64);
   const Device device = shaped(Shape::group);
   std::vector<Point> points;
@@ -155,6 +155,11 @@ BOOST_AUTO_TEST_CASE(a_dense_volume_takes_few_commands_and_reads_nothing) {
   BOOST_TEST(masked.reads == 0u);
   BOOST_TEST(painted.commands == 10u);
   BOOST_TEST(painted.reads == 0u);
+  const Seeds seeds = Seeds::random(device, grid, 500, 1);
+  exact_diagram(seeds, diagram);
+  const Counts listed = counts_of([&] { exact_diagram(seeds, diagram); });
+  BOOST_TEST(listed.commands == 7u);
+  BOOST_TEST(listed.reads == 0u);
 }
 
 BOOST_AUTO_TEST_CASE(jump_flooding_takes_a_command_per_wave_and_four_more) {

@@ -30,9 +30,6 @@ Seeds seeds_at(const Device& device, const Grid& grid, const std::vector<Pixel>&
   return {device, grid, points, {Outside::count, snap}};
 }
 
-/// Exact diagrams of volumes are for CPUs: elsewhere they are refused (see below).
-bool can_be_exact() { return test_device().tuning().shape == Shape::vector; }
-
 Device with_tuning(int vector_width, std::size_t group) {
   Tuning tuning = test_device().tuning();
   tuning.vector_width = vector_width;
@@ -201,7 +198,6 @@ BOOST_AUTO_TEST_CASE(the_two_oracles_agree) {
 }
 
 BOOST_AUTO_TEST_CASE(sets_made_to_hurt_have_no_wrong_voxel) {
-  if (!can_be_exact()) return;
   const Device short_list_device = with_lists(test_device(), ListLength::two_entries);
   for (const Grid& grid :
        {Grid(70, 44, 37), Grid(33, 65, 16), Grid(1, 40, 90), Grid(200, 3, 2), Grid(5, 1, 7),
@@ -229,7 +225,6 @@ void check_random_seeds(int number, const Grid& grid, const Grid& part, Random& 
 }  // namespace
 
 BOOST_AUTO_TEST_CASE(small_volumes_have_no_wrong_voxel) {
-  if (!can_be_exact()) return;
   Random random(1);
   for (int i = 0; i < (long_tests ? 100000 : 2000); ++i) {
     const int most = i % 16 == 0 ? 72 : 24;
@@ -247,7 +242,6 @@ BOOST_AUTO_TEST_CASE(small_volumes_have_no_wrong_voxel) {
 /// Where seeds are dense, voxels near an end see the seeds at the other one, in another order than the tie
 /// rule's; within a short period more than once.
 BOOST_AUTO_TEST_CASE(dense_seeds_round_the_ends_have_no_wrong_voxel) {
-  if (!can_be_exact()) return;
   Random random(29);
   for (const Grid& grid :
        {periodic(Grid(40, 37, 50), true, true, true), periodic(Grid(4, 32, 33), true, true, true),
@@ -264,7 +258,6 @@ BOOST_AUTO_TEST_CASE(dense_seeds_round_the_ends_have_no_wrong_voxel) {
 /// Of these spacings two leave room for passes where seeds are dense: for both reaches and for the shorter
 /// one. Two leave room for none: a microscope's, and the longest, with which the long tests go on.
 BOOST_AUTO_TEST_CASE(spaced_volumes_have_no_wrong_voxel) {
-  if (!can_be_exact()) return;
   Random random(21);
   const Device short_list_device = with_lists(test_device(), ListLength::two_entries);
   for (const auto& spacing : {Pixel{3, 3, 4}, Pixel{2, 1, 4}, Pixel{13, 13, 40}, Pixel{62, 63, 64}}) {
@@ -290,7 +283,6 @@ BOOST_AUTO_TEST_CASE(spaced_volumes_have_no_wrong_voxel) {
 
 /// A side has at most 16,384 units.
 BOOST_AUTO_TEST_CASE(the_longest_spaced_volumes_are_right) {
-  if (!can_be_exact()) return;
   Random random(23);
   const Grid grid = spaced(Grid(1024, 64, 2), 16, 3, 7);
   for (const std::size_t count : {3u, 300u}) {
@@ -300,7 +292,6 @@ BOOST_AUTO_TEST_CASE(the_longest_spaced_volumes_are_right) {
 }
 
 BOOST_AUTO_TEST_CASE(long_volumes_pack_positions_in_their_own_way) {
-  if (!can_be_exact()) return;
   const Grid grid(3, 5, 2100);
   Random random(5);
   for (const std::size_t count : {1u, 30u, 3000u}) {
@@ -310,7 +301,6 @@ BOOST_AUTO_TEST_CASE(long_volumes_pack_positions_in_their_own_way) {
 }
 
 BOOST_AUTO_TEST_CASE(a_large_volume_is_right_where_it_is_looked_at) {
-  if (!can_be_exact()) return;
   Random random(7);
   for (const std::size_t count : {100u, 4096u, 40000u, 300000u}) {
     const bool some_periodic = count == 100 || count == 300000;
@@ -322,7 +312,6 @@ BOOST_AUTO_TEST_CASE(a_large_volume_is_right_where_it_is_looked_at) {
 
 /// Then most voxels are nearest to images in other periods, of seeds that are far inside the volume.
 BOOST_AUTO_TEST_CASE(seeds_in_a_corner_reach_round_all_ends) {
-  if (!can_be_exact()) return;
   Random random(15);
   for (const Grid& open : {Grid(150, 97, 130), Grid(64, 200, 71)}) {
     const Grid grid = periodic(open, true, true, true);
@@ -339,7 +328,6 @@ BOOST_AUTO_TEST_CASE(seeds_in_a_corner_reach_round_all_ends) {
 
 /// Nearly all seeds are candidates next to the middle of a sphere: more than a full list holds.
 BOOST_AUTO_TEST_CASE(the_middle_of_a_sphere_is_right) {
-  if (!can_be_exact()) return;
   const Grid grid(256, 256, 256);
   Random random(9);
   for (const int middle : {128, 130}) {  // between parts of boxes, and within one
@@ -366,7 +354,7 @@ BOOST_AUTO_TEST_CASE(absent_seeds_have_no_voxel) {
   for (std::uint32_t& label : expected) label = label == 1 ? 2 : label;
   Diagram diagram(test_device(), grid);
   for (const Method& method : methods()) {
-    if (!method.volumes || (method.exact && !can_be_exact())) continue;
+    if (!method.volumes) continue;
     method.run(seeds, diagram, {});
     BOOST_TEST(count_differences(diagram.read(), expected) == 0, method.name);
   }
@@ -583,11 +571,6 @@ BOOST_AUTO_TEST_CASE(what_knows_planes_alone_refuses_volumes_by_name) {
     check_error([&] { method.run(seeds, diagram, {}); }, {what + "flooding"});
   }
   check_error([&] { exact_diagram(seeds, diagram, {Metric::manhattan}); }, {"are Euclidean"});
-  Tuning tuning = device.tuning();
-  tuning.shape = Shape::group;
-  const Device as_gpu = device.with_tuning(tuning);
-  Diagram on_gpu(as_gpu, grid);
-  check_error([&] { exact_diagram(Seeds::random(as_gpu, grid, 2, 1), on_gpu); }, {"made by CPUs alone"});
   jump_flooding(seeds, diagram);
   VerticesResult corners;
   check_error([&] { vertices(diagram, corners); }, {what + "the vertices of a diagram"});

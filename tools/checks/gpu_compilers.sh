@@ -34,8 +34,7 @@ done
 needs nvidia "$PTXAS" ptxas
 needs intel "$OCLOC" ocloc
 
-# A GPU gets all programs but those of the vector shape of exact diagrams, and of exact diagrams of volumes. Exact cells and great
-# circles are not checked.
+# A GPU gets all programs but those of the vector shape of exact diagrams. Exact cells and great circles are not checked.
 kernel_files() {
   grep -lE '^ *(VECTOR_KERNEL|kernel) void' kernels/{core,flooding,measures,motion}/*.cl
   echo kernels/exact/group/diagram.cl
@@ -62,7 +61,12 @@ more_options() { # FILE METRIC
     printf '%s\n' '-DVOROCL_PERIODIC_X -DVOROCL_PERIODIC_Y' -DVOROCL_FRACTIONS '-DVOROCL_FRACTIONS -DVOROCL_PERIODIC_X -DVOROCL_PERIODIC_Y'
   fi
   if [[ $1 == kernels/exact/group/diagram.cl && $2 == EUCLIDEAN ]]; then
-    echo '-DVOROCL_FRACTIONS -DVOROCL_WEIGHTED -DVOROCL_PERIODIC_X -DVOROCL_PERIODIC_Y'
+    local places periodic='-DVOROCL_PERIODIC_X -DVOROCL_PERIODIC_Y'
+    echo "-DVOROCL_FRACTIONS -DVOROCL_WEIGHTED $periodic"
+    for places in '' -DVOROCL_FRACTIONS '-DVOROCL_FRACTIONS -DVOROCL_WEIGHTED'; do
+      printf -- "-DVOROCL_DIMENSIONS=3 $places%s\n" '' " $periodic -DVOROCL_PERIODIC_Z"
+    done
+    echo '-DVOROCL_DIMENSIONS=3 -DVOROCL_FRACTIONS -DVOROCL_SPACING_X=2 -DVOROCL_SPACING_Y=1 -DVOROCL_SPACING_Z=4'
   fi
   if [[ $1 == kernels/masks/* ]]; then echo -DVOROCL_FAR; fi
   if [[ $1 == kernels/measures/* ]]; then echo '-DVOROCL_DIMENSIONS=3 -DVOROCL_PERIODIC_X -DVOROCL_PERIODIC_Y -DVOROCL_PERIODIC_Z'; fi

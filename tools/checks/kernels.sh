@@ -30,7 +30,7 @@ builds_of() { # KERNEL
     echo "1 -DVOROCL_EUCLIDEAN -DVOROCL_NEIGHBOURS=9"
     return
   fi
-  if [[ $kernel == kernels/exact/diagram.cl ]]; then  # planes, and Euclidean volumes, with vectors of its own
+  if [[ $kernel == kernels/exact/*diagram.cl ]]; then  # planes, and Euclidean volumes, with vectors of its own
     for places in -DVOROCL_DIMENSIONS=3 '' "$short_lists"; do  # with weights
       echo "1 -DVOROCL_EUCLIDEAN -DVOROCL_NEIGHBOURS=9 -DVOROCL_FRACTIONS -DVOROCL_WEIGHTED -DVOROCL_PERIODIC_X $places"
     done

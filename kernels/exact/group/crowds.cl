@@ -1,5 +1,5 @@
-// Labelling patches that have too many candidates for a list: boxes of 16 x 16 pixels one after the other, by
-// lists that follow each other in parts. Each pixel keeps the place that won so far.
+// Labelling boxes of pixels or voxels by lists that follow each other in parts. Each pixel keeps the place
+// that won so far. So a volume is labelled, and patches of a plane that have too many candidates for a list.
 
 #ifndef VOROCL_EXACT_GROUP_CROWDS
 #define VOROCL_EXACT_GROUP_CROWDS
@@ -7,7 +7,6 @@
 #include "exact/group/patch.cl"
 
 #define CROWD_PIXELS (CROWD_SIDE * CROWD_SIDE)
-#define CROWD_BOXES (PATCH / CROWD_SIDE)
 #define CROWD_RUN 2  // pixels below each other that an item compares at a time
 #ifndef MOST_OF_PART
 #define MOST_OF_PART \
@@ -29,19 +28,28 @@ static inline ulong length_along(int way) {
   return IS_MANHATTAN ? (ulong)abs(way) : (ulong)((long)way * way);
 }
 
+// Run i of a box begins at this pixel: runs along x, then along y and z. All sides along y are even.
+static inline int4 start_of_run(int i, box_t b) {
+  const int row = i / b.sx * CROWD_RUN;
+  return (int4)(i % b.sx, row % b.sy, row / b.sy, 0);
+}
+
 // Lets the places of a part stand against those that won so far.
-static inline void compare_part(local crowd_t* crowd, const scene_t* scene, int count) {
+static inline void compare_part(local crowd_t* crowd, const scene_t* scene, box_t box, int count) {
   for (int run = ITEM(); run < CROWD_PIXELS / CROWD_RUN; run += ITEMS()) {
-    const int x = (run % CROWD_SIDE - CROWD_SIDE / 2) * ONE + HALF;
-    const int y = (run / CROWD_SIDE * CROWD_RUN - CROWD_SIDE / 2) * ONE + HALF;
+    const int4 start = start_of_run(run, box);
+    const int4 from = centre_of(box_at(start.x, start.y, start.z, 1, 1, 1)) -
+                      centre_of(box_at(0, 0, 0, box.sx, box.sy, box.sz));
     ulong2 least = vload2((size_t)run, crowd->least);
     uint2 winner = vload2((size_t)run, crowd->winner);
     for (int i = 0; i < count; ++i) {
       const int4 place = crowd->place[i];
-      const ulong along_x = length_along(place.x - x) + (IS_WEIGHTED ? (ulong)place.w * LAG_UNIT : 0);
+      ulong across = length_along(place.x - from.x);
+      if (IS_VOLUME) across += length_along(place.z - from.z);
+      if (IS_WEIGHTED) across += (ulong)place.w * LAG_UNIT;
 #pragma unroll
       for (int k = 0; k < CROWD_RUN; ++k, least = least.s10, winner = winner.s10) {
-        const ulong distance = along_x + length_along(place.y - y - k * ONE);
+        const ulong distance = across + length_along(place.y - from.y - k * ONE * SPACING_Y);
         if (distance <= least.s0) {
           const uint at = crowd->at[i];
           if (distance < least.s0 || is_first(scene, at, winner.s0)) winner.s0 = at;
@@ -54,53 +62,89 @@ static inline void compare_part(local crowd_t* crowd, const scene_t* scene, int 
   }
 }
 
-// Labels a box of a patch of the queue. Most work-groups have none.
-kernel void label_crowds(SCENE_PARAMETERS, global const uint* restrict queue) {
-  local crowd_t crowd;
-  local ranges_t ranges;
-  local rivals_t rivals;
-  const int number = (int)get_group_id(0) / (CROWD_BOXES * CROWD_BOXES);
-  if (number >= (int)queue[0]) return;
-  const scene_t scene = SCENE_OF_PARAMETERS;
-  const box_t patch = box_of_patch(&scene, (int)queue[1 + number]);
-  const int left = (int)get_group_id(0) % CROWD_BOXES, top = (int)get_group_id(0) / CROWD_BOXES % CROWD_BOXES;
-  const box_t box =
-      box_at(patch.x + left * CROWD_SIDE, patch.y + top * CROWD_SIDE, 0, CROWD_SIDE, CROWD_SIDE, 1);
-  if (box.x >= size.x || box.y >= size.y) return;
+INLINE void label_crowd(local crowd_t* crowd, local ranges_t* ranges, local rivals_t* rivals,
+                        const scene_t* scene, box_t box) {
   const spans_t spans = spans_of(box);
   const int4 centre = centre_of(box);
-  const bool whole = is_whole(&scene, box);
-  for (int pixel = ITEM(); pixel < CROWD_PIXELS; pixel += ITEMS()) crowd.least[pixel] = NO_WINNER;
-  if (ITEM() == 0) crowd.count = 0;
-  find_rivals(&rivals, &ranges, &scene, box);
-  for (int begin = 0; begin < count_ranges(&ranges); begin += ranges_of_chunk()) {
-    const uint places = make_ranges(&ranges, &scene, begin);
+  const bool whole = is_whole(scene, box);
+  for (int pixel = ITEM(); pixel < CROWD_PIXELS; pixel += ITEMS()) crowd->least[pixel] = NO_WINNER;
+  if (ITEM() == 0) crowd->count = 0;
+  find_rivals(rivals, ranges, scene, box);
+  for (int begin = 0; begin < count_ranges(ranges); begin += ranges_of_chunk()) {
+    const uint places = make_ranges(ranges, scene, begin);
     int range = 0;
     for (uint batch = 0; batch < places; batch += (uint)ITEMS() * BATCH) {
       const uint end = min(batch + (uint)ITEMS() * BATCH, places);
       for (uint i = batch + (uint)ITEM(); i < end; i += (uint)ITEMS()) {
         uint at;
-        const int4 place = place_from(&ranges, &scene, i, centre, &range, &at);
-        if (stays(place, &rivals, &spans)) {
-          const uint kept = atomic_inc(&crowd.count);
-          crowd.place[kept] = place, crowd.at[kept] = at;
+        const int4 place = place_from(ranges, scene, i, centre, &range, &at);
+        if (stays(place, rivals, &spans)) {
+          const uint kept = atomic_inc(&crowd->count);
+          crowd->place[kept] = place, crowd->at[kept] = at;
         }
       }
       SYNC();
       // A part that is not full, nor the last one of the chunk, is left for more.
-      const int part = crowd.count > MOST_OF_PART || end == places ? (int)crowd.count : 0;
-      compare_part(&crowd, &scene, part);
+      const int part = crowd->count > MOST_OF_PART || end == places ? (int)crowd->count : 0;
+      compare_part(crowd, scene, box, part);
       SYNC();
-      if (ITEM() == 0 && part > 0) crowd.count = 0;
+      if (ITEM() == 0 && part > 0) crowd->count = 0;
       SYNC();
     }
   }
   for (int pixel = ITEM(); pixel < CROWD_PIXELS; pixel += ITEMS()) {
-    const int column = pixel % CROWD_SIDE, row = pixel / CROWD_SIDE;
-    const int at = (row / CROWD_RUN * CROWD_SIDE + column) * CROWD_RUN + row % CROWD_RUN;
-    show_label(&scene, whole, box.x + column, box.y + row,
-               crowd.least[at] == NO_WINNER ? NO_LABEL : ids[crowd.winner[at]]);
+    const int column = pixel % box.sx, row = pixel / box.sx;
+    const int at = (row / CROWD_RUN * box.sx + column) * CROWD_RUN + row % CROWD_RUN;
+    show_label(scene, whole, box.x + column, box.y + row % box.sy, box.z + row / box.sy,
+               crowd->least[at] == NO_WINNER ? NO_LABEL : scene->ids[crowd->winner[at]]);
   }
 }
+
+#if IS_VOLUME
+
+static inline box_t box_of_volume(int4 size, int sx, int sy, int sz) {
+  const int number = (int)get_group_id(0), columns = (size.x - 1) / sx + 1, rows = (size.y - 1) / sy + 1;
+  return box_at(number % columns * sx, number / columns % rows * sy, number / columns / rows * sz, sx, sy,
+                sz);
+}
+
+kernel void label_boxes(SCENE_PARAMETERS) {
+  local crowd_t crowd;
+  local ranges_t ranges;
+  local rivals_t rivals;
+  const scene_t scene = SCENE_OF_PARAMETERS;
+  label_crowd(&crowd, &ranges, &rivals, &scene, box_of_volume(size, BOX_WIDTH, BOX_HEIGHT, BOX_DEPTH));
+}
+
+// The same of a volume of one slice.
+kernel void label_squares(SCENE_PARAMETERS) {
+  local crowd_t crowd;
+  local ranges_t ranges;
+  local rivals_t rivals;
+  const scene_t scene = SCENE_OF_PARAMETERS;
+  label_crowd(&crowd, &ranges, &rivals, &scene, box_of_volume(size, CROWD_SIDE, CROWD_SIDE, 1));
+}
+
+#else
+
+#define BOXES_OF_PATCH (PATCH / CROWD_SIDE)
+
+// Labels a box of a patch of the queue. Most work-groups have none.
+kernel void label_crowds(SCENE_PARAMETERS, global const uint* restrict queue) {
+  local crowd_t crowd;
+  local ranges_t ranges;
+  local rivals_t rivals;
+  const int group = (int)get_group_id(0), number = group / (BOXES_OF_PATCH * BOXES_OF_PATCH);
+  if (number >= (int)queue[0]) return;
+  const scene_t scene = SCENE_OF_PARAMETERS;
+  const box_t patch = box_of_patch(&scene, (int)queue[1 + number]);
+  const int left = group % BOXES_OF_PATCH, top = group / BOXES_OF_PATCH % BOXES_OF_PATCH;
+  const box_t box =
+      box_at(patch.x + left * CROWD_SIDE, patch.y + top * CROWD_SIDE, 0, CROWD_SIDE, CROWD_SIDE, 1);
+  if (box.x >= size.x || box.y >= size.y) return;
+  label_crowd(&crowd, &ranges, &rivals, &scene, box);
+}
+
+#endif
 
 #endif

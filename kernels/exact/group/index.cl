@@ -15,7 +15,7 @@
 // so of all others. (Ids are the places' own numbers unless they are given.)
 static inline int4 place_and_lag(given_t given, uint id, global const int* lags) {
   const int4 place = place_of(given);
-  return (int4)(place.xy, 0, IS_WEIGHTED ? lags[id] : 0);
+  return (int4)(place.xyz, IS_WEIGHTED ? lags[id] : 0);
 }
 kernel void find_repeats(global const given_t* restrict given, global const uint* restrict ids, int has_ids,
                          global const int* restrict lags, uint count, uint table_bits,
@@ -24,8 +24,9 @@ kernel void find_repeats(global const given_t* restrict given, global const uint
   if (item >= count || !is_given(given[item])) return;
   const uint id = has_ids ? ids[item] : item;
   const int4 own = place_and_lag(given[item], id, lags);
-  const uint hash = (uint)own.x * 0x9e3779b1u ^ (uint)own.y * 0x85ebca77u ^ (uint)own.w * 0x27d4eb2fu;
-  uint at = hash * 0xc2b2ae3du >> (32 - table_bits);
+  const uint hash = (uint)own.x * 0x9e3779b1u ^ (uint)own.y * 0x85ebca77u ^ (uint)own.z * 0xc2b2ae3du ^
+                    (uint)own.w * 0x27d4eb2fu;
+  uint at = hash * 0x165667b1u >> (32 - table_bits);
   uint first = atomic_cmpxchg(table + at, NOT_SEEN, item);
   while (first != NOT_SEEN && any(place_and_lag(given[first], has_ids ? ids[first] : first, lags) != own)) {
     at = (at + 1) & ((1u << table_bits) - 1);
@@ -50,7 +51,8 @@ kernel void start_bins(global uint* restrict starts, int4 bits, int4 size) {
       ends_of_items[MOST_ITEMS_OF_ROW];  // how many places the bins of each have, and of those before it
   local uint begin[1];
   const bins_t bins = bins_of(bits, size);
-  const uint row = (uint)get_group_id(0), rows = (uint)bins.rows, columns = (uint)bins.columns;
+  const uint row = (uint)get_group_id(0), rows = (uint)(bins.rows * bins.slices),
+             columns = (uint)bins.columns;
   const uint item = (uint)get_local_id(0), items = (uint)get_local_size(0),
              some_bins = (columns - 1) / items + 1;
   global uint* const own = starts + row * (columns + 1);
@@ -79,10 +81,10 @@ kernel void start_bins(global uint* restrict starts, int4 bits, int4 size) {
 kernel void list_places(global const given_t* restrict given, uint table_bits,
                         global const uint* restrict table, uint count, int4 bits, int4 size,
                         global const int* restrict lags_of_seeds, global uint* restrict starts,
-                        global int* restrict xs, global int* restrict ys, global uint* restrict ids,
-                        global int* restrict lags) {
+                        global int* restrict xs, global int* restrict ys, global int* restrict zs,
+                        global uint* restrict ids, global int* restrict lags) {
   const bins_t bins = bins_of(bits, size);
-  const places_of_bins_t places = {xs, ys, 0, ids, lags};
+  const places_of_bins_t places = {xs, ys, zs, ids, lags};
   const uint item = (uint)get_global_id(0);
   global const uint* const lowest = table + (1u << table_bits);
   if (item >= count || lowest[item] == NOT_SEEN) return;

@@ -134,8 +134,10 @@ INLINE void list_stamping(local stamps_t* stamps, local ranges_t* ranges, const 
   if (ITEM() == 0) {
     ranges->area.has_balls = 0;
     const cuboid_t limits = limits_around(scene, patch);
-    set_area(&ranges->area, scene, clamped(span_of(patch.x - more, patch.x + PATCH - 1 + more), limits.x),
-             clamped(span_of(first - more, first + band->rows - 1 + more), limits.y));
+    cuboid_t around = limits;
+    around.x = clamped(span_of(patch.x - more, patch.x + PATCH - 1 + more), limits.x);
+    around.y = clamped(span_of(first - more, first + band->rows - 1 + more), limits.y);
+    set_area(&ranges->area, scene, around);
   }
   SYNC();
   const int4 corner = (int4)(patch.x, patch.y, 0, 0) * ONE;
@@ -254,7 +256,7 @@ kernel void stamp_patches(SCENE_PARAMETERS, global uint* restrict pending, globa
       const uint key = stamps.key[row * PATCH + column];
       const bool is_far = key >= band.limit;
       if (!is_far && (key & NUMBER_MASK) >= FIRST_NUMBER) {
-        show_label(&scene, whole, x, y, ids[place_of_key(&stamps, &band, key)]);
+        show_label(&scene, whole, x, y, 0, ids[place_of_key(&stamps, &band, key)]);
       } else if (x < size.x && y < size.y) {
         stamps.open[atomic_inc(&stamps.open_count)] = (ushort)(row * PATCH + column);
         if (is_far && !IS_WEIGHTED) atomic_inc(&stamps.far_count);
