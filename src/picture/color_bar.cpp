@@ -6,7 +6,6 @@
 #include <string>
 #include <vector>
 
-#include "picture/lettering.hpp"
 #include "picture/palette.hpp"
 #include "vorocl/error.hpp"
 #include "vorocl/picture.hpp"
@@ -14,6 +13,37 @@
 namespace vorocl {
 
 namespace {
+
+constexpr int font = cv::FONT_HERSHEY_SIMPLEX;
+constexpr int least_text_height = 8;
+
+/// The height of the letters of a picture with so many rows.
+int text_height(int rows) { return std::max(least_text_height, rows / 50); }
+
+/// Letters of one size.
+class Lettering {
+ public:
+  explicit Lettering(int height)
+      : height_(height),
+        thickness_(std::max(1, height / 10)),
+        scale_(cv::getFontScaleFromHeight(font, height, thickness_)) {}
+
+  int height() const { return height_; }
+  int thickness() const { return thickness_; }
+
+  int width(const std::string& text) const {
+    return cv::getTextSize(text, font, scale_, thickness_, nullptr).width;
+  }
+
+  void draw(cv::Mat& picture, const std::string& text, const cv::Point& bottom_left) const {
+    cv::putText(picture, text, bottom_left, font, scale_, dark, thickness_, cv::LINE_AA);
+  }
+
+ private:
+  int height_;
+  int thickness_;
+  double scale_;
+};
 
 constexpr int least_height = 96;
 constexpr int most_steps = 8;
@@ -174,6 +204,22 @@ cv::Mat with_color_bar(const cv::Mat& picture, const ColorBar& bar) {
     text.draw(result, tick.text, {numbers, y + unit / 2});
   }
   return result;
+}
+
+void draw_text(cv::Mat& picture, const std::string& text) {
+  check_picture(picture);
+  const Lettering letters(text_height(picture.rows));
+  const int margin = letters.height() / 2;
+  const cv::Size ground(letters.width(text) + 2 * margin, letters.height() + 2 * margin);
+  const std::size_t comma = text.find(", ");
+  if (ground.width > picture.cols && ground.height < picture.rows && comma != std::string::npos) {
+    draw_text(picture, text.substr(comma + 2));
+    cv::Mat above = picture.rowRange(0, picture.rows - ground.height);
+    return draw_text(above, text.substr(0, comma));
+  }
+  const cv::Rect whole({0, 0}, picture.size());
+  picture(cv::Rect({0, picture.rows - ground.height}, ground) & whole).setTo(light);
+  letters.draw(picture, text, {margin, picture.rows - margin});
 }
 
 }  // namespace vorocl

@@ -4,7 +4,6 @@
 #include <cstring>
 #include <limits>
 #include <numeric>
-#include <optional>
 #include <random>
 
 #include "app/outputs/table_rows.hpp"
@@ -38,7 +37,7 @@ BOOST_AUTO_TEST_CASE(numbers_are_written_as_fmt_does) {
 
 BOOST_AUTO_TEST_CASE(a_value_that_is_unknown_is_empty) {
   RowText text("7,");
-  for (const std::optional<double> value : {std::optional<double>(2.5), std::optional<double>()}) {
+  for (const double value : {2.5, RowText::unknown}) {
     text.begin_row();
     text.add(value);
     text.add(RowText::unknown, 1);

@@ -2,20 +2,214 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cstring>
 #include <limits>
 
 #include "app/commands/tiles_options.hpp"
 #include "app/mpi/ranks.hpp"
-#include "app/mpi/shared_plane_writer.hpp"
+#include "app/outputs/plane_writer.hpp"
 #include "app/terminal/console.hpp"
 #include "app/terminal/end_of_run.hpp"
 #include "app/terminal/progress.hpp"
+#include "app/terminal/samples.hpp"
 #include "formats/files.hpp"
+#include "vorocl/error.hpp"
 #include "vorocl/mpi.hpp"
 
 namespace vorocl::command {
 
 namespace {
+
+constexpr int written = 1, all_written = 2;  // tags of messages to rank 0
+
+void put(std::vector<char>& message, std::uint64_t number) {
+  const char* const bytes = reinterpret_cast<const char*>(&number);
+  message.insert(message.end(), bytes, bytes + sizeof number);
+}
+
+std::uint64_t get(const std::vector<char>& message, std::size_t& place) {
+  std::uint64_t number = 0;
+  std::memcpy(&number, message.data() + place, sizeof number);
+  place += sizeof number;
+  return number;
+}
+
+/// Every rank writes its tiles to the same files. Rank 0 makes the files, keeps the journal, sums the cells
+/// and gives the files their names; the others tell it what they have written. A journal is always kept, for
+/// files that several processes write need a name that all know.
+class SharedPlaneWriter {
+ public:
+  /// Throws Error as PlaneWriter.
+  SharedPlaneWriter(const Ranks& ranks, PlaneWriterOptions options, const Tiling& tiling,
+                    const std::optional<Georeference>& georeference, const std::string& run)
+      : communicator_(ranks.communicator),
+        rank_(ranks.rank),
+        ranks_(ranks.count),
+        has_tables_(!options.cells.empty() || !options.adjacency.empty()) {
+    if (rank_ == 0) {
+      check_journal(options);
+      options.resume = true;
+      writer_ = std::make_unique<PlaneWriter>(options, tiling, georeference, run);
+    } else {
+      files_ = plane_files(options, tiling, georeference);
+    }
+  }
+
+  /// Collective.
+  void begin(const std::string& seeds) {
+    std::vector<std::uint64_t> made;
+    if (rank_ == 0) {
+      writer_->begin(seeds);
+      made.assign(writer_->made_before().begin(), writer_->made_before().end());
+    }
+    std::uint64_t count = made.size();
+    MPI_Bcast(&count, 1, MPI_UINT64_T, 0, communicator_);  // the files are there from here on
+    made.resize(count);
+    MPI_Bcast(made.data(), static_cast<int>(count), MPI_UINT64_T, 0, communicator_);
+    made_before_.insert(made.begin(), made.end());
+    known_ = made.size();
+    for (const auto& file : files_) file->join();
+  }
+
+  /// The tiles that an earlier run has completed, on all ranks.
+  const std::set<std::uint64_t>& made_before() const { return made_before_; }
+
+  /// Where this rank's tiles are summed; null: nowhere.
+  PlaneCells* cells() {
+    if (rank_ == 0) return writer_->cells();
+    return has_tables_ ? &cells_ : nullptr;
+  }
+
+  /// Writes a tile.
+  void add(const TileLabels& tile) {
+    if (rank_ == 0) {
+      writer_->add(tile);
+      ++known_;
+      for (;;) {
+        int there = 0;
+        MPI_Status status;
+        MPI_Iprobe(MPI_ANY_SOURCE, written, communicator_, &there, &status);  // ends are for end()
+        if (there == 0) return;
+        receive(status);
+      }
+    }
+    TileJournal::Entry entry;
+    entry.number = tile.number;
+    for (const auto& file : files_) entry.bytes.push_back(file->write(tile).bytes);
+    entries_.push_back(std::move(entry));
+    int is_sent = 0;  // the last message: a rank 0 that makes a tile takes none
+    MPI_Test(&sending_, &is_sent, MPI_STATUS_IGNORE);
+    if (is_sent != 0 && stopwatch_.seconds() >= next_checkpoint_) checkpoint();
+  }
+
+  /// Notes what this rank has written: after add() alone.
+  void checkpoint() {
+    if (rank_ == 0) {
+      writer_->checkpoint();
+      return;
+    }
+    if (entries_.empty()) return;
+    const double begin = stopwatch_.seconds();
+    send(written);
+    const double end = stopwatch_.seconds();
+    next_checkpoint_ = end + time_between_checkpoints * (end - begin);
+  }
+
+  /// The tiles that rank 0 knows to be written.
+  std::uint64_t known() const { return known_; }
+
+  /// Of a run that ends before all tiles are made: what stays of it, for an error.
+  std::string kept() const {
+    return rank_ == 0 ? writer_->kept()
+                      : "with --resume the same command goes on with the tiles that are not complete";
+  }
+
+  /// When this rank has written its tiles. Rank 0 waits until all have, and the disk has them.
+  // Before anything that ranks do together: the others' messages end when rank 0 takes them.
+  void end() {
+    if (rank_ > 0) {
+      send(all_written);
+      wait_for_message();
+      return;
+    }
+    writer_->checkpoint();
+    for (int ended = 1; ended < ranks_;) {
+      MPI_Status status;
+      MPI_Probe(MPI_ANY_SOURCE, MPI_ANY_TAG, communicator_, &status);
+      receive(status);
+      writer_->checkpoint();
+      ended += status.MPI_TAG == all_written ? 1 : 0;
+    }
+  }
+
+  /// On all ranks, after end(): gives the files their names.
+  void finish(const Units& units, const EachSeed& seeds) {
+    if (rank_ == 0) writer_->finish(units, seeds);
+    MPI_Barrier(communicator_);
+  }
+
+ private:
+  /// Tells rank 0 of the tiles that it does not know yet, when the disk has them.
+  void send(int tag) {
+    for (const auto& file : files_) file->sync();
+    wait_for_message();
+    message_.clear();
+    put(message_, entries_.size());
+    for (const TileJournal::Entry& entry : entries_) {
+      put(message_, entry.number);
+      put(message_, entry.bytes.size());
+      for (const std::uint64_t bytes : entry.bytes) put(message_, bytes);
+    }
+    entries_.clear();
+    if (has_tables_) {
+      const std::vector<char> sums = cells_.take();
+      message_.insert(message_.end(), sums.begin(), sums.end());
+    }
+    if (message_.size() > static_cast<std::size_t>(std::numeric_limits<int>::max())) {
+      throw Error(
+          "the cells of the tiles since the last checkpoint take more than 2 GiB; take smaller tiles");
+    }
+    MPI_Isend(message_.data(), static_cast<int>(message_.size()), MPI_BYTE, 0, tag, communicator_, &sending_);
+  }
+
+  void wait_for_message() {
+    // NOLINTNEXTLINE(clang-analyzer-optin.mpi.MPI-Checker): the last call of send() began it
+    MPI_Wait(&sending_, MPI_STATUS_IGNORE);
+  }
+
+  void receive(const MPI_Status& status) {
+    int size = 0;
+    MPI_Get_count(&status, MPI_BYTE, &size);
+    std::vector<char> message(static_cast<std::size_t>(size));
+    MPI_Recv(message.data(), size, MPI_BYTE, status.MPI_SOURCE, status.MPI_TAG, communicator_,
+             MPI_STATUS_IGNORE);
+    std::size_t place = 0;
+    std::vector<TileJournal::Entry> entries(get(message, place));
+    for (TileJournal::Entry& entry : entries) {
+      entry.number = get(message, place);
+      entry.bytes.resize(get(message, place));
+      for (std::uint64_t& bytes : entry.bytes) bytes = get(message, place);
+    }
+    known_ += entries.size();
+    writer_->add(entries, {message.begin() + static_cast<std::ptrdiff_t>(place), message.end()});
+  }
+
+  MPI_Comm communicator_;
+  int rank_, ranks_;
+  bool has_tables_;
+  std::unique_ptr<PlaneWriter> writer_;  // on rank 0
+  std::set<std::uint64_t> made_before_;
+  std::uint64_t known_ = 0;
+
+  // On the others:
+  std::vector<std::unique_ptr<PlaneFile>> files_;
+  PlaneCells cells_;
+  std::vector<TileJournal::Entry> entries_;  // that rank 0 does not know yet
+  std::vector<char> message_;                // on its way
+  MPI_Request sending_ = MPI_REQUEST_NULL;
+  Stopwatch stopwatch_;
+  double next_checkpoint_ = 0;  // in seconds
+};
 
 /// One of the machine's devices of the kind that is asked for: the ranks of a machine take them in turn.
 Device device_of_rank(const Ranks& ranks, const std::string& request) {

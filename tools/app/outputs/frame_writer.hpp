@@ -9,12 +9,12 @@
 #include <vector>
 
 #include "app/outputs/diagram_files.hpp"
-#include "app/outputs/frame_files.hpp"
 #include "app/outputs/painter.hpp"
 #include "app/sources/moving_seeds.hpp"
 #include "app/terminal/console.hpp"
 #include "formats/images/film.hpp"
 #include "formats/numbered_files.hpp"
+#include "formats/trajectory/trajectory.hpp"
 #include "formats/workers.hpp"
 #include "vorocl/distance_errors.hpp"
 
@@ -61,6 +61,9 @@ struct Trouble {
   bool is_of_frame = false;  ///< in its file, where a run of the others would end too
 };
 
+class FrameFiles;
+class FrameStatistics;
+
 /// Each numbered file is whole as soon as it is there. The film and the tables grow under temporary names
 /// until finish(); without it, they do not stay.
 ///
@@ -71,6 +74,9 @@ class FrameWriter {
   /// Throws UsageError for names that are not possible, Error if no files can be made there.
   /// `with_errors`: errors are written beside the similarities.
   explicit FrameWriter(const FrameWriterOptions& options, bool with_errors = false);
+  ~FrameWriter();
+  FrameWriter(const FrameWriter&) = delete;
+  FrameWriter& operator=(const FrameWriter&) = delete;
 
   /// Whether add() writes anything of this frame's diagram.
   bool wants(int frame) const { return statistics_ || wants_images(frame); }
@@ -120,7 +126,7 @@ class FrameWriter {
   std::optional<NumberedFiles> pictures_;
   std::vector<std::unique_ptr<FrameFiles>> files_;
   std::unique_ptr<GrowingFile> similarities_;
-  std::optional<FrameStatistics> statistics_;
+  std::unique_ptr<FrameStatistics> statistics_;
   std::vector<GrowingFile*> tables_;  // of all these
   int complete_ = 0, frames_ = 0;
   Workers behind_{1};  // the last member: its thread ends before what it writes goes

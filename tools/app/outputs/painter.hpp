@@ -9,10 +9,21 @@
 #include <vector>
 
 #include "app/outputs/measures.hpp"
-#include "app/outputs/volume_slice.hpp"
 #include "vorocl/picture.hpp"
 
 namespace vorocl::command {
+
+/// A slice of a volume, across an axis.
+struct VolumeSlice {
+  char axis;  // x, y or z
+  std::int64_t at;
+};
+
+/// How many slices there are along the axis.
+std::int64_t slices_along(const Grid& grid, char axis);
+
+/// The pixels of a slice: x and y across z, x and z across y, y and z across x.
+Size size_of_slice(const Grid& grid, const VolumeSlice& slice);
 
 /// What the colour of a pixel shows.
 enum class Quantity { id, distance, area, neighbours, column };

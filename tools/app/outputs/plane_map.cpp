@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "app/outputs/plane_summary.hpp"
+#include "app/outputs/plane_writer.hpp"
 #include "formats/files.hpp"
 #include "formats/images/pictures.hpp"
 #include "formats/planes/placed_file.hpp"

@@ -2,16 +2,117 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <unistd.h>
 
 #include <algorithm>
+#include <filesystem>
+#include <utility>
 
-#include "app/outputs/plane_summary.hpp"
+#include "app/outputs/diagram_files.hpp"
 #include "formats/files.hpp"
 #include "formats/images/pictures.hpp"
+#include "formats/values.hpp"
+#include "vorocl/error.hpp"
 
 namespace vorocl::command {
 
 namespace {
+
+/// What a cell shares with others.
+struct Shares {
+  std::size_t neighbours = 0;
+  std::uint64_t perimeter = 0;
+};
+
+/// The shares of cells, which are asked for in the order of their ids.
+class SharesByCell {
+ public:
+  explicit SharesByCell(const std::vector<PlaneCellPair>& pairs) {
+    lengths_.reserve(2 * pairs.size());
+    for (const PlaneCellPair& pair : pairs) {
+      lengths_.emplace_back(pair.a, pair.length);
+      lengths_.emplace_back(pair.b, pair.length);
+    }
+    std::sort(lengths_.begin(), lengths_.end());
+    next_ = lengths_.begin();
+  }
+
+  Shares of(std::uint64_t id) {
+    Shares shares;
+    for (; next_ != lengths_.end() && next_->first == id; ++next_) {
+      ++shares.neighbours;
+      shares.perimeter += next_->second;
+    }
+    return shares;
+  }
+
+ private:
+  using Lengths = std::vector<std::pair<std::uint32_t, std::uint64_t>>;
+  Lengths lengths_;
+  Lengths::const_iterator next_;
+};
+
+/// Throws Error, and writes nothing, if the cells are not all that the plane's `pixels` make.
+void write_cells(const OutputFile& file, const PlaneCells& cells, const std::vector<PlaneCellPair>& pairs,
+                 const Units& units, const EachSeed& seeds, std::uint64_t pixels) {
+  GrowingFile table(file);
+  const std::vector<std::string> names = cell_columns(CellsOf::tiles);
+  const std::vector<CellColumn> columns = cell_columns_of(names);
+  RowText row("");
+  SharesByCell shares_by_cell(pairs);
+  std::uint64_t summed = 0;
+  const auto begin = [&](const CsvFields& kept) { table << header_of_cells(names, units, kept); };
+  const auto add = [&](std::uint64_t id, const Point& place, const CsvFields& kept) {
+    const PlaneCell cell = cells.cell(id);
+    if (cell.area == 0) return;
+    summed += cell.area;
+    const Shares shares = shares_by_cell.of(id);
+    CellValues values;
+    values.id = static_cast<double>(id);
+    values.seed = units.position(place);
+    values.area = units.area(static_cast<double>(cell.area));
+    values.centroid = units.position(cell.centroid);
+    values.extent = units.extent({static_cast<double>(cell.left), static_cast<double>(cell.top),
+                                  static_cast<double>(cell.right), static_cast<double>(cell.bottom)});
+    values.perimeter = units.length(static_cast<double>(shares.perimeter));
+    values.neighbours = static_cast<double>(shares.neighbours);
+    values.touches_border = cell.touches_border ? 1 : 0;
+    row.clear();
+    row.begin_row();
+    add_cell(row, columns, values, &kept);
+    row.end_row();
+    table << row.text();
+  };
+  seeds({begin, add});
+  if (summed != pixels && summed > 0) {  // without any seed no pixel has a cell
+    throw Error(
+        fmt::format("{}: the cells have {} pixels and the plane has {}; what was kept of an earlier "
+                    "run is damaged",
+                    file.path(), summed, pixels));
+  }
+  table.finish();
+}
+
+/// What stands before each piece of sums in their file.
+struct PieceHead {
+  std::uint64_t size = 0;
+  std::uint64_t hash = 0;
+};
+
+std::uint64_t hash_of(const std::vector<char>& bytes) {
+  Hash hash;
+  hash.add_text(std::string_view(bytes.data(), bytes.size()));
+  return hash.value();
+}
+
+void write_pairs(const OutputFile& file, const std::vector<PlaneCellPair>& pairs, const Units& units) {
+  GrowingFile table(file);
+  table << units.header({"a", "b", "length"});
+  for (const PlaneCellPair& pair : pairs) {
+    table << fmt::format("{},{},{}\n", pair.a, pair.b, units.length(static_cast<double>(pair.length)));
+  }
+  table.finish();
+}
 
 /// Beside the first file that is asked for.
 std::string journal_of(const PlaneWriterOptions& options) {
@@ -27,6 +128,83 @@ std::unique_ptr<TileJournal> open_journal(const PlaneWriterOptions& options, con
 }
 
 }  // namespace
+
+/// Tables as those of cells_kind() and adjacency_kind(), with the columns that are known of a plane's cells,
+/// and one row per cell that has pixels. What another run is to go on with are the sums of tiles, in pieces
+/// that are appended to a file.
+class PlaneTables {
+ public:
+  /// The files' paths, empty: not asked for; and the pixels that all cells have together. Throws Error if no
+  /// file can be made there.
+  PlaneTables(const std::string& cells, const std::string& adjacency, std::uint64_t pixels)
+      : cells_file_(open_output(cells)), adjacency_file_(open_output(adjacency)), pixels_(pixels) {}
+
+  bool is_asked_for() const { return cells_file_ || adjacency_file_; }
+
+  /// Where tiles are summed; null without tables.
+  PlaneCells* recent() { return is_asked_for() ? &recent_ : nullptr; }
+
+  /// Begins a file of sums, or goes on behind what was kept of it. `is_complete`: if there is none, the
+  /// tables must be there already. Throws Error if that fails, or it is no such file.
+  void open_part(const std::optional<Kept>& kept, bool is_complete) {
+    std::error_code ignored;
+    is_finished_ = is_complete && !std::filesystem::exists(part_path(), ignored);
+    if (is_finished_) {
+      for (const auto& file : {cells_file_, adjacency_file_}) {
+        if (file) open_to_read(file->path());
+      }
+      return;
+    }
+    sums_ = std::make_unique<GrowingFile>(cells_file_ ? *cells_file_ : *adjacency_file_, kept);
+    if (kept) read_sums(part_path(), kept->bytes);
+  }
+
+  std::string part_path() const { return (cells_file_ ? *cells_file_ : *adjacency_file_).part_path(); }
+
+  /// Makes the disk have the sums so far, and returns the bytes of their file; 0 without one.
+  std::size_t sync() {
+    if (!sums_) return 0;
+    const std::vector<char> piece = recent_.take();
+    const PieceHead head = {piece.size(), hash_of(piece)};
+    sums_->write(&head, sizeof head);
+    sums_->write(piece.data(), piece.size());
+    cells_.add(piece);
+    return sums_->sync();
+  }
+
+  /// Writes the tables. Throws Error if the cells' areas do not add up to the pixels.
+  void finish(const Units& units, const EachSeed& seeds) {
+    if (!is_asked_for() || is_finished_) return;
+    cells_.add(recent_.take());
+    const std::vector<PlaneCellPair> pairs = cells_.pairs();
+    if (cells_file_) write_cells(*cells_file_, cells_, pairs, units, seeds, pixels_);
+    if (adjacency_file_) write_pairs(*adjacency_file_, pairs, units);
+    if (sums_) unlink(part_path().c_str());
+  }
+
+ private:
+  void read_sums(const std::string& path, std::size_t bytes) {
+    std::ifstream file = open_to_read(path);
+    const Error damaged(path + " is damaged");
+    std::vector<char> piece;
+    while (bytes > 0) {
+      PieceHead head;
+      file.read(reinterpret_cast<char*>(&head), sizeof head);
+      if (!file || bytes < sizeof head || bytes - sizeof head < head.size) throw damaged;
+      piece.resize(head.size);
+      file.read(piece.data(), static_cast<std::streamsize>(head.size));
+      if (!file || hash_of(piece) != head.hash) throw damaged;
+      cells_.add(piece);
+      bytes -= sizeof head + head.size;
+    }
+  }
+
+  std::optional<OutputFile> cells_file_, adjacency_file_;
+  std::uint64_t pixels_;
+  PlaneCells cells_, recent_;  // those of the tiles before the last sync(), and since
+  std::unique_ptr<GrowingFile> sums_;
+  bool is_finished_ = false;
+};
 
 std::vector<RequestedFile> requested_files(const PlaneWriterOptions& options) {
   return {{"--labels", options.labels, plane_extensions()},
@@ -56,7 +234,7 @@ PlaneWriter::PlaneWriter(const PlaneWriterOptions& options, const Tiling& tiling
     : tiling_(tiling),
       journal_(open_journal(options, run)),
       files_(plane_files(options, tiling, georeference)),
-      tables_(options.cells, options.adjacency, tiling.window().pixels()) {
+      tables_(std::make_unique<PlaneTables>(options.cells, options.adjacency, tiling.window().pixels())) {
   if (!journal_) return;
   for (const RequestedFile& file : requested_files(options)) {
     if (!file.path.empty() && extension_of(file.path) == ".csv")
@@ -64,10 +242,14 @@ PlaneWriter::PlaneWriter(const PlaneWriterOptions& options, const Tiling& tiling
   }
 }
 
+PlaneWriter::~PlaneWriter() = default;
+
+PlaneCells* PlaneWriter::cells() { return tables_->recent(); }
+
 std::vector<std::string> PlaneWriter::part_paths() const {
   std::vector<std::string> paths;
   for (const auto& file : files_) paths.push_back(file->part_path());
-  if (tables_.is_asked_for()) paths.push_back(tables_.part_path());
+  if (tables_->is_asked_for()) paths.push_back(tables_->part_path());
   return paths;
 }
 
@@ -82,8 +264,8 @@ void PlaneWriter::begin(const std::string& seeds) {
     const std::optional<KeptTiles> kept = journal_->kept(i);
     journal_->open([&] { files_[i]->open_part(kept); });
   }
-  if (tables_.is_asked_for()) {
-    journal_->open([&] { tables_.open_part(journal_->kept_sums(), is_complete); });
+  if (tables_->is_asked_for()) {
+    journal_->open([&] { tables_->open_part(journal_->kept_sums(), is_complete); });
   }
   made_before_.insert(journal_->tiles().begin(), journal_->tiles().end());
   complete_ = made_before_.size();
@@ -105,14 +287,14 @@ void PlaneWriter::add(const TileLabels& tile) {
 
 void PlaneWriter::add(const std::vector<TileJournal::Entry>& entries, const std::vector<char>& sums) {
   entries_.insert(entries_.end(), entries.begin(), entries.end());
-  if (PlaneCells* const cells = tables_.recent()) cells->add(sums);
+  if (PlaneCells* const cells = tables_->recent()) cells->add(sums);
 }
 
 void PlaneWriter::checkpoint() {
   if (!journal_ || entries_.empty()) return;
   const double begin = stopwatch_.seconds();
   for (const auto& file : files_) file->sync();
-  journal_->complete(entries_, tables_.sync());
+  journal_->complete(entries_, tables_->sync());
   complete_ += entries_.size();
   entries_.clear();
   const double end = stopwatch_.seconds();
@@ -129,7 +311,7 @@ void PlaneWriter::finish(const Units& units, const EachSeed& seeds) {
   checkpoint();
   if (journal_) journal_->finish();
   for (const auto& file : files_) file->finish();
-  tables_.finish(units, seeds);
+  tables_->finish(units, seeds);
   if (journal_) journal_->remove();
 }
 

@@ -9,9 +9,11 @@
 #include <vector>
 
 #include "app/outputs/output_files.hpp"
-#include "app/outputs/plane_summary.hpp"
 #include "app/outputs/tile_journal.hpp"
+#include "app/sources/plane_input.hpp"
 #include "app/terminal/samples.hpp"
+#include "formats/planes/plane_file.hpp"
+#include "vorocl/tiles.hpp"
 
 namespace vorocl::command {
 
@@ -37,6 +39,16 @@ void check_journal(const PlaneWriterOptions& options);
 std::vector<std::unique_ptr<PlaneFile>> plane_files(const PlaneWriterOptions& options, const Tiling& tiling,
                                                     const std::optional<Georeference>& georeference);
 
+/// The longest side of the picture.
+constexpr std::int64_t longest_side_of_map = 4096;
+
+/// A picture of a tiling's window in which each pixel stands for a square of the plane's, and has the colour
+/// of the one in its middle: that of its seed's id, as in render's pictures. Until it is finished its labels
+/// are kept in a file. Throws Error as plane_file().
+std::unique_ptr<PlaneFile> plane_map(const std::string& path, const Tiling& tiling);
+
+class PlaneTables;
+
 /// The outputs of a run. They have their names when finish() is through; without it nothing stays of them,
 /// unless the run can be resumed.
 class PlaneWriter {
@@ -45,6 +57,9 @@ class PlaneWriter {
   /// another run, or where no files can be made.
   PlaneWriter(const PlaneWriterOptions& options, const Tiling& tiling,
               const std::optional<Georeference>& georeference, const std::string& run);
+  ~PlaneWriter();
+  PlaneWriter(const PlaneWriter&) = delete;
+  PlaneWriter& operator=(const PlaneWriter&) = delete;
 
   /// Begins the files, or goes on with those of an earlier run. `seeds` tells these from others. Throws Error
   /// if that run had others, or if its files are not as it has left them.
@@ -57,7 +72,7 @@ class PlaneWriter {
   std::optional<std::uint64_t> next();
 
   /// Where tiles are summed that are to be added then; null: nowhere.
-  PlaneCells* cells() { return tables_.recent(); }
+  PlaneCells* cells();
 
   /// Writes a tile, and notes now and then in the journal which are complete.
   void add(const TileLabels& tile);
@@ -82,7 +97,7 @@ class PlaneWriter {
   Tiling tiling_;
   std::unique_ptr<TileJournal> journal_;
   std::vector<std::unique_ptr<PlaneFile>> files_;
-  PlaneTables tables_;
+  std::unique_ptr<PlaneTables> tables_;
   std::set<std::uint64_t> made_before_;
   std::uint64_t next_ = 0;
   std::size_t complete_ = 0;                 // tiles that the journal knows

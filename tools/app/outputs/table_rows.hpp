@@ -9,7 +9,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
-#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -42,8 +41,6 @@ class RowText {
     *end = ',';
     text_.resize(size + static_cast<std::size_t>(end - begin) + 1);
   }
-
-  void add(const std::optional<double>& value) { add(value.value_or(unknown)); }
 
   template <typename... Values>
   void add(double first, double second, const Values&... others) {

@@ -63,8 +63,13 @@ class MovingSeeds {
   virtual std::optional<double> done() const = 0;
 };
 
+/// The frame of a trajectory that the options ask for. Throws Error if the file is bad, has fewer frames, no
+/// z where it is to be a volume, or a particle outside the bounds where that is refused; warns on standard
+/// error where the axes get different scales, and notes there what of the box is left out.
+Input frame_of_trajectory(const SeedOptions& options, bool is_volume);
+
 /// Those of a trajectory, or seeds that move at random. Throws UsageError for options that do not go
-/// together, Error if a file is bad or reading all of it is interrupted.
+/// together, Error as frame_of_trajectory(), for any frame, and if reading all of a file is interrupted.
 std::unique_ptr<MovingSeeds> read_moving_seeds(const SeedOptions& seeds, const MotionOptions& motion,
                                                const Interruption& interruption);
 

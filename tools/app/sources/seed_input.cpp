@@ -10,8 +10,8 @@
 
 #include "app/sources/bounds.hpp"
 #include "app/sources/data_grid.hpp"
+#include "app/sources/moving_seeds.hpp"
 #include "app/sources/random_seeds.hpp"
-#include "app/sources/trajectory_seeds.hpp"
 #include "app/terminal/console.hpp"
 #include "formats/files.hpp"
 #include "formats/images/pictures.hpp"
@@ -366,7 +366,7 @@ bool check_seeds(SeedOptions& options) {
 
 Input read_input(SeedOptions options) {
   const bool is_volume = check_seeds(options);
-  if (!options.trajectory.empty()) return TrajectorySeeds(options, is_volume, options.frame).frame();
+  if (!options.trajectory.empty()) return frame_of_trajectory(options, is_volume);
   if (!options.points.empty()) return input_from_points(options, is_volume);
   Input input = options.mask.empty() ? input_at_random(options) : input_from_mask(options);
   if (!options.is_exact || is_volume) return input;
