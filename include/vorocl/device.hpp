@@ -14,10 +14,10 @@ namespace vorocl {
 
 struct DeviceState;
 
-/// How the kernels of exact diagrams are cut.
+/// How the kernels of exact diagrams and of distance transforms are cut.
 enum class Shape {
-  vector,  ///< a work-item labels bins of pixels in vectors, for CPUs
-  group,   ///< a work-group labels a square of pixels together, for GPUs
+  vector,  ///< a work-item labels bins or rows of pixels in vectors, for CPUs
+  group,   ///< a work-group labels a square of pixels, a box of voxels or a band of lines together, for GPUs
 };
 
 /// How kernels are shaped for a device. Results never depend on it, only speed does.
@@ -25,7 +25,7 @@ struct Tuning {
   int vector_width = 1;          ///< pixels of a row that one work-item computes: 1, 2, 4, 8 or 16
   std::size_t group_width = 32;  ///< work-items of a work-group along a row ...
   std::size_t group_height = 8;  ///< ... and across rows
-  Shape shape = Shape::vector;   ///< of exact diagrams
+  Shape shape = Shape::vector;   ///< of exact diagrams and distance transforms
   std::size_t patch_items = 64;  ///< fewest work-items of a work-group of Shape::group: 32, 64, 128 or 256
 };
 

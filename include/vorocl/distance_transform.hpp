@@ -121,7 +121,7 @@ struct TransformOptions {
 /// (docs/masks.md has the proofs and the figures).
 ///
 /// Memory beside the images: 2 bytes per pixel of a plane; in a volume those of a few slices, and 4
-/// bytes per voxel if there is no target of 4 bytes or more per voxel.
+/// bytes per voxel if there is no target of 4 bytes or more per voxel. With Shape::group 6 bytes per pixel.
 ///
 /// Threads: one thread at a time.
 class VOROCL_API DistanceTransform {

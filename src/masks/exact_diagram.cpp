@@ -34,7 +34,7 @@ bool shows_marks(const Filling& filling) {
 }  // namespace
 
 bool labels_by_passes(const Filling& filling, const DiagramState& state) {
-  // In groups planes take fewer instructions by their index, whatever the seeds (counted).
+  // In groups random seeds of planes take fewer instructions by their index, however dense (counted).
   const bool in_groups = state.device.tuning().shape == Shape::group;
   if (in_groups && !state.grid.is_volume()) return false;
   if (shows_marks(filling)) return true;

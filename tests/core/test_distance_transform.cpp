@@ -223,6 +223,11 @@ BOOST_AUTO_TEST_CASE(any_axes_may_be_periodic) {
     check_all_images({{19, 12, 14}, periods});
     check_all_images({{4, 3, 5}, periods, {2, 1, 3}});
   }
+  // Squares of ways take nearly 32 bits, and those beyond half a period more.
+  const Shape3 shape = {{58, 33, 1}, {false, true, false}, {1000, 1000, 1}};
+  Bytes image(shape.pixels(), 1);
+  image[17 * 58] = image[31 * 58 + 17] = 0;
+  check_against_brute_force(shape, image);
 }
 
 BOOST_AUTO_TEST_CASE(sizes_of_pixels_are_any) {

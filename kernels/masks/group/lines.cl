@@ -88,10 +88,12 @@ INLINE int nearest_of_all(const line_t* l, const bool along_z, global const shor
   return found;
 }
 
-// The same of the sites from `low` to `high`, in the order of their numbers.
+// The same of the sites from `low` to `high`, in the order of their numbers. No nearest one is beyond `reach`, nor
+// does a square of such a way fit.
 INLINE int nearest_of_some(const line_t* l, const bool along_z, global const short* columns,
                            global const int* between, int place, int low, int high) {
   if (low == high) return low;
+  low = max(low, place - l->reach), high = min(high, place + l->reach);
   squares best = MOST_SQUARED;
   int found = low;
   for (int image = high >= l->size; image >= -(low < 0); --image) {

@@ -78,8 +78,8 @@ struct BenchmarkOptions {
   int rounds = 1;
 };
 
-/// Times methods from seeds on the device to labels on the device. What the seeds were placed with all are
-/// judged by.
+/// Times methods from seeds on the device to labels on the device. All are judged by the seeds as they were
+/// placed, snapped or not.
 ///
 /// Runs each method once, which builds its programs, allocates its memory and is judged; then the methods
 /// take turns, so that a machine that slows down slows all of them. A method that goes on from the last frame

@@ -8,7 +8,8 @@ Option add_file_option(Command& command, FileRequest& request, bool numbered) {
   const FileKind& kind = request.kind;
   std::string example;
   if (numbered) example = "; one file per frame, such as frames/%05d" + kind.extensions.front();
-  if (numbered && kind.table() != nullptr) example += ", or one table of all, such as cells.csv";
+  if (numbered && kind.table() != nullptr)
+    example += ", or one table of all, such as " + kind.option.substr(2) + ".csv";
   return command.add(kind.option, request.path, kind.about + example).value_name(numbered ? "FILES" : "FILE");
 }
 
@@ -59,7 +60,9 @@ void add_frame_writer_options(Command& command, FrameWriterOptions& options) {
   command
       .add("--statistics", options.statistics_path, "Statistics of cells to write, one row per frame: .csv")
       .value_name("FILE");
-  command.add("--every", options.every, "Write pictures, files and rows of frames 0, K, 2 K, ... alone")
+  command
+      .add("--every", options.every,
+           "Write pictures, files and rows of cells and pairs of frames 0, K, 2 K, ... alone")
       .value_name("K")
       .in_range(1, 1000000000)
       .default_is_value();

@@ -161,7 +161,7 @@ View view_of_grid(const Grid& grid, bool in_pixels) {
 
 namespace {
 
-/// What the volume of a frame shows: see grid_of_frame() for `all`.
+/// What the volume of a frame shows: see box_of_frame() for `all`.
 std::array<Side, 3> sides_of_frame(const SeedOptions& options, const Frame& frame,
                                    const std::vector<Point>& points, const std::optional<Bounds>& all,
                                    Axes periodic) {

@@ -168,8 +168,8 @@ void place_points(Input& input, const SeedOptions& options, std::vector<std::opt
 /// Checks the options, and returns whether they ask for a volume. Exact cells are one if an option says so
 /// that planes do not have (bounds of six numbers, z among the columns or the periodic axes, a depth), or if
 /// neither bounds nor columns say that it is a plane, and the points are an array of three columns, or the
-/// particles of the first frame do not lie in a plane, or its box is tilted in z. Their size says no more.
-/// Throws UsageError.
+/// particles of the first frame do not lie in a plane, or its box is tilted in z. Nothing
+/// else is taken of the size of exact cells, which is reset. Throws UsageError.
 bool check_seeds(SeedOptions& options);
 
 /// Checks the options, and reads and checks the files, of a plane, a volume or exact cells. Throws

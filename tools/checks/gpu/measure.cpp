@@ -200,7 +200,7 @@ Members times_of(const Device& device, const Subject& subject, double budget, in
           {"event_ms", median_and_least(events)}};
 }
 
-/// The last one makes seeds move by whole pixels.
+/// Without dJFA where points lie between centres: it snaps them, and they move by parts of a pixel.
 std::vector<std::string> methods_of(const std::string& source) {
   if (is_between_centres(source)) return {"exact", "jfa"};
   return {"exact", "jfa", "djfa"};
