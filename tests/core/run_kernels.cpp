@@ -264,7 +264,7 @@ void make_volumes(const Device& device, const Grid& grid) {
 }
 
 /// Points within their voxels: few, dense ones, many on one point and on a line, on a sphere. A plane that is
-/// spaced is a volume of one slice.
+/// spaced is labelled as a volume of one slice, in which points have no z.
 void make_volumes_of_points(const Device& device) {
   for (const Grid& grid : {Grid(20, 9, 6), Grid(18, 13, 7, Axes::xyz), Grid(Axis(20).spaced(2), Axis(9)),
                            Grid(Axis(19).spaced(2), Axis(9).periodic(), Axis(5).spaced(3))}) {
@@ -272,7 +272,8 @@ void make_volumes_of_points(const Device& device) {
       std::vector<Spot> seeds;
       const std::int64_t x = grid.width() * parts, y = grid.height() * parts, z = grid.depth() * parts;
       for (std::int64_t i = 0; i < (kind == 0 ? 3 : 150); ++i) {
-        if (kind < 2) seeds.push_back({i * 7919 * 31 % x, i * 104729 % y, i * 1299709 % z});
+        if (kind < 2)
+          seeds.push_back({i * 7919 * 31 % x, i * 104729 % y, grid.depth() > 1 ? i * 1299709 % z : z / 2});
         if (kind == 2) seeds.push_back({x / 3, y / 2, z / 2});
         if (kind == 3) seeds.push_back({i * 524287 % x, y / 2, z / 2});
         const double u = 1 - static_cast<double>(i) / 75, angle = static_cast<double>(i) * 2.4;
