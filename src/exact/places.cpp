@@ -119,7 +119,8 @@ Report exact_diagram_by_places(Filling& filling, DiagramState& state) {
     const std::size_t group = device.tuning().group_width * device.tuning().group_height;
     const std::size_t items_of_places = std::max<std::size_t>(count, 1);
     const std::size_t most_of_row = std::min<std::size_t>(group, MOST_ITEMS_OF_ROW);
-    std::size_t items_of_row = 1;
+    constexpr std::size_t warp = 32;  // fewer take no less time, and PoCL compiles anew for each size
+    std::size_t items_of_row = std::min(warp, most_of_row);
     while (items_of_row < std::min(bins_along(0), most_of_row)) items_of_row *= 2;
     cl_uint table_bits = 1;
     while (std::size_t{1} << table_bits < 2 * items_of_places) ++table_bits;

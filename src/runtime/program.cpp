@@ -12,6 +12,7 @@
 #include "runtime/device_state.hpp"
 #include "runtime/kernel_sources.hpp"
 #include "runtime/opencl_info.hpp"
+#include "runtime/process.hpp"
 #include "runtime/stopwatch.hpp"
 
 namespace vorocl {
@@ -151,6 +152,7 @@ std::string with_includes(const std::string& file, const std::string& text) {
 
 cl::Program program_for(const Device& device, const std::string& file, const std::string& options) {
   DeviceState& state = Internal::state(device);
+  refuse_fork_of(state.process);  // a thread that it does not have may have been building
   const std::lock_guard<std::mutex> lock(state.programs_mutex);
   const std::string all = state.build_options.empty() ? options : options + ' ' + state.build_options;
   const std::string key = file + ' ' + all;
