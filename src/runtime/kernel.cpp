@@ -16,14 +16,6 @@ int vector_width_for(const Device& device, const PixelGrid& grid) {
   return width;
 }
 
-/// Whether there may be two images of a seed in the surroundings of a patch: see exact/group/stamps.cl.
-bool has_short_period(const PixelGrid& grid) {
-  constexpr int surroundings = 64;
-  if (grid.is_volume()) return false;
-  return (grid.periodic_x() && grid.width() < surroundings) ||
-         (grid.periodic_y() && grid.height() < surroundings);
-}
-
 std::string spacing_of_volume(const PixelGrid& grid) {
   if (!grid.is_spaced()) return "";
   const auto [x, y, z] = grid.spacing();
@@ -47,9 +39,7 @@ std::string build_options(int vector_width, const PixelGrid& grid, const KernelO
          (options.extent == Extent::fractions ? " -DVOROCL_FRACTIONS" : "") +
          (options.weighted ? " -DVOROCL_WEIGHTED" : "") + (grid.periodic_x() ? " -DVOROCL_PERIODIC_X" : "") +
          (grid.periodic_y() ? " -DVOROCL_PERIODIC_Y" : "") +
-         (grid.periodic_z() ? " -DVOROCL_PERIODIC_Z" : "") +
-         (has_short_period(grid) ? " -DVOROCL_SHORT_PERIOD" : "") + bits_of_volume(grid) +
-         spacing_of_volume(grid);
+         (grid.periodic_z() ? " -DVOROCL_PERIODIC_Z" : "") + bits_of_volume(grid) + spacing_of_volume(grid);
 }
 
 std::size_t round_up(std::size_t count, std::size_t multiple) {

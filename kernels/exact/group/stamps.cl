@@ -11,11 +11,7 @@
 // A patch is tried where a place has fewer pixels than this on average. Within the radius of a pixel lie so
 // many places then: at random one pixel in 37 has none. (Where so short a period that it has a seed twice
 // around a patch leaves open which of two numbers comes first, none is tried.)
-#if FRACTION_BITS == 1 && defined(VOROCL_SHORT_PERIOD)
-#define PIXELS_OF_DENSE 0
-#else
 #define PIXELS_OF_DENSE 36
-#endif
 #define PLACES_WITHIN 3.6f
 #define REACH 6  // of a radius at most, in whole pixels
 #define MOST_FAR \
@@ -218,6 +214,10 @@ static inline void stamp(local stamps_t* stamps, int i, local const band_t* band
   }
 }
 
+static inline bool is_short(int period, int periodic) {
+  return FRACTION_BITS == 1 && periodic && period < 2 * PATCH;
+}
+
 // Labels dense patches, and says of each patch whether it is pending. With weights the nearest place may be
 // farther than others by any radius: all pixels of a dense patch look alone.
 kernel void stamp_patches(SCENE_PARAMETERS, global uint* restrict pending, global uint* restrict queue) {
@@ -228,7 +228,8 @@ kernel void stamp_patches(SCENE_PARAMETERS, global uint* restrict pending, globa
   const box_t patch = box_of_patch(&scene, (int)get_group_id(0));
   const float density = density_of(&scene, patch);
   if (get_global_id(0) == 0) queue[0] = 0;
-  if (density * PIXELS_OF_DENSE < 1) {
+  const bool has_short_period = is_short(size.x, PERIODIC_X) || is_short(size.y, PERIODIC_Y);
+  if (density * (has_short_period ? 0 : PIXELS_OF_DENSE) < 1) {
     if (ITEM() == 0) pending[get_group_id(0)] = 1;
     return;
   }
