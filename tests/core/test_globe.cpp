@@ -9,7 +9,8 @@
 #include "fixture.hpp"
 #include "samples.hpp"
 
-namespace vorocl {
+using namespace vorocl;
+
 namespace {
 
 constexpr long double radius = 6371.0088L, radians = 3.14159265358979323846264338328L / 180;
@@ -288,4 +289,3 @@ BOOST_AUTO_TEST_CASE(what_is_not_of_a_globe_is_refused) {
 }
 
 }  // namespace
-}  // namespace vorocl
