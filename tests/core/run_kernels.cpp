@@ -270,13 +270,16 @@ void make_volumes_of_points(const Device& device) {
                            Grid(Axis(19).spaced(2), Axis(9).periodic(), Axis(5).spaced(3))}) {
     for (int kind = 0; kind < (grid.depth() > 1 ? 5 : 4); ++kind) {
       std::vector<Spot> seeds;
+      // More than short lists hold. From 100 on, what has no groups takes smaller boxes.
+      const std::int64_t many = device.tuning().shape == Shape::group ? 75 : 150;
       const std::int64_t x = grid.width() * parts, y = grid.height() * parts, z = grid.depth() * parts;
-      for (std::int64_t i = 0; i < (kind == 0 ? 3 : 150); ++i) {
+      for (std::int64_t i = 0; i < (kind == 0 ? 3 : many); ++i) {
         if (kind < 2)
           seeds.push_back({i * 7919 * 31 % x, i * 104729 % y, grid.depth() > 1 ? i * 1299709 % z : z / 2});
         if (kind == 2) seeds.push_back({x / 3, y / 2, z / 2});
         if (kind == 3) seeds.push_back({i * 524287 % x, y / 2, z / 2});
-        const double u = 1 - static_cast<double>(i) / 75, angle = static_cast<double>(i) * 2.4;
+        const double u = 1 - 2 * static_cast<double>(i) / static_cast<double>(many),
+                     angle = static_cast<double>(i) * 2.4;
         const auto away = [](double way) { return std::llround(2 * parts * way); };
         const double flat = std::sqrt(std::max(0.0, 1 - u * u));
         if (kind == 4)
@@ -525,9 +528,12 @@ int main() {
       make_diagrams(shaped, grid, metric);
       make_seeds(shaped, grid);
     }
-    for (const int rows : {9, 66}) {  // few seeds, and so many that passes label the plane
-      make_exact_diagrams(shaped, Grid(176, 90), rows, metric);
-      make_exact_diagrams(shaped, Grid(140, 66, Axes::xy), rows, other);
+    // Few seeds, and many: of so many as 66 rows have without groups, passes label the plane.
+    const Grid plane = in_groups ? Grid(112, 50) : Grid(176, 90),
+               torus = in_groups ? Grid(100, 66, Axes::xy) : Grid(140, 66, Axes::xy);
+    for (const int rows : {9, in_groups ? 33 : 66}) {
+      make_exact_diagrams(shaped, plane, rows, metric);
+      make_exact_diagrams(shaped, torus, rows, other);
     }
     if (!in_groups) make_exact_diagrams(shaped, Grid(520, 260), 1, metric);  // a region has one list
     make_windows(shaped, metric);
