@@ -270,8 +270,8 @@ void make_volumes_of_points(const Device& device) {
                            Grid(Axis(19).spaced(2), Axis(9).periodic(), Axis(5).spaced(3))}) {
     for (int kind = 0; kind < (grid.depth() > 1 ? 5 : 4); ++kind) {
       std::vector<Spot> seeds;
-      // More than short lists hold. From 100 on, what has no groups takes smaller boxes.
-      const std::int64_t many = device.tuning().shape == Shape::group ? 75 : 150;
+      // More than short lists hold, and once more than a group looks at together or a tile has.
+      const std::int64_t many = grid.depth() > 1 && grid.periodic() == Axes::none ? 150 : 40;
       const std::int64_t x = grid.width() * parts, y = grid.height() * parts, z = grid.depth() * parts;
       for (std::int64_t i = 0; i < (kind == 0 ? 3 : many); ++i) {
         if (kind < 2)
