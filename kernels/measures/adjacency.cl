@@ -6,8 +6,9 @@
 // The home of a seed that is absent, whose cell has no borders, whatever labels name it.
 #define NO_HOME 0xffffffffu
 
-// A CELL while its borders are found has four words: its home, 0, how many pairs have it as the higher id, and its
-// perimeter. What the home adds to it needs no atomics; what others add goes to `neighbours` and `perimeters`.
+// A CELL while its borders are found has four words: its home, how many pairs its list has, how many pairs have it as
+// the higher id, and its perimeter. What the home adds to it needs no atomics; what others add goes to `neighbours` and
+// `perimeters`.
 #define CELL_PARAMETERS \
   global uint *cells, global uint *neighbours, global uint *perimeters
 #define CELL_ARGUMENTS cells, neighbours, perimeters
@@ -31,50 +32,52 @@ static inline void add_to_cell(uint id, uint new_pairs, uint size, bool at_home,
   atomic_add(perimeters + id, size);
 }
 
-// Adds to the border of the cells p and q, found by a block.
-__attribute__((always_inline)) static inline void add_border(uint p, uint q, uint size, uint block, CELL_PARAMETERS,
+// Adds to the border of the cells a and b, a < b, found by a block.
+__attribute__((always_inline)) static inline void add_border(uint a, uint b, uint size, uint block, CELL_PARAMETERS,
                                                              PAIR_PARAMETERS) {
-  const uint a = min(p, q), b = max(p, q);
   const uint home_a = HOME_OF(a), home_b = HOME_OF(b);
   if (home_a == NO_HOME || home_b == NO_HOME) return;
-  const addition_t added = home_a == block ? add_to_list(a, b, size, PAIR_ARGUMENTS) : NO_ROOM;
-  if (added == NO_ROOM) add_to_table(a, b, size, PAIR_ARGUMENTS);
-  add_to_cell(a, 0, size, home_a == block, CELL_ARGUMENTS);
-  add_to_cell(b, added == NEW_PAIR, size, home_b == block, CELL_ARGUMENTS);
+  global uint* const listed = cells + 4 * (size_t)a + 1;
+  const bool at_home = home_a == block;
+  const uint place = at_home ? place_in_list(LIST_OF(a), b, *listed, LIST_SIZE) : LIST_SIZE;
+  const bool is_new = place < LIST_SIZE && place == *listed;
+  if (place < LIST_SIZE) {
+    LIST_OF(a)[place] = b;
+    add_to_list(LIST_OF(a), size, place, is_new);
+    *listed += is_new;
+  } else {
+    add_to_table(a, b, size, PAIR_ARGUMENTS);
+  }
+  add_to_cell(a, 0, size, at_home, CELL_ARGUMENTS);
+  add_to_cell(b, is_new, size, home_b == block, CELL_ARGUMENTS);
 }
 
 // GATHERED: on a CPU, whose work-items are alone in their groups, the borders between two cells come together in local
-// memory first, for a brick of a block's rows. So most of them wait for no other memory; and when the pairs go on from
-// there, it is known which are next, and what they need is on its way. A slot has the number of a pair, or NO_NUMBER.
-#define BRICK 4  // rows and slices
-#if VOROCL_WIDTH > 1
-#define MOST_GATHERED 1536
-#define GATHERED_SLOTS 4096
-#else
-#define MOST_GATHERED 1
-#define GATHERED_SLOTS 1
-#endif
+// memory first, for a brick of a block's pixels. So most of them wait for no other memory; and when the pairs go on
+// from there, it is known which are next, and what they need is on its way. A slot has the number of a pair, or
+// NO_NUMBER.
+#define BRICK_WIDTH 32  // at most 32: a bit for each pixel
+#define BRICK_ROWS (VOROCL_DIMENSIONS == 3 ? 8 : 32)
+#define BRICK_SLICES 4
+#define MOST_OF_ROW (3 * BRICK_WIDTH)  // pairs that it can add
+#define MOST_GATHERED (VOROCL_WIDTH > 1 ? 1536 : 1)
+#define GATHERED_SLOTS (VOROCL_WIDTH > 1 ? 4096 : 1)
 #define NO_NUMBER 0xffff
 #define PAIRS_AHEAD 16
 typedef struct {
   local ushort* slots;
   local uint* pairs;  // three words each
   uint count;
+  uint cells, block;  // how many cells there are, and where they are gathered
 } gathered_t;
 
-static inline void begin_gathering(gathered_t* gathered) {
-  gathered->count = 0;
-  if (VOROCL_WIDTH == 1) return;
-  for (uint i = 0; i < GATHERED_SLOTS; ++i) gathered->slots[i] = NO_NUMBER;
-}
-
-static inline void gather(gathered_t* gathered, uint p, uint q, uint size, uint block, CELL_PARAMETERS,
-                          PAIR_PARAMETERS) {
+static inline void gather(gathered_t* gathered, uint p, uint q, uint size, CELL_PARAMETERS, PAIR_PARAMETERS) {
+  const uint a = min(p, q), b = max(p, q);
+  if (b >= gathered->cells) return;
   if (VOROCL_WIDTH == 1) {
-    add_border(p, q, size, block, CELL_ARGUMENTS, PAIR_ARGUMENTS);
+    add_border(a, b, size, gathered->block, CELL_ARGUMENTS, PAIR_ARGUMENTS);
     return;
   }
-  const uint a = min(p, q), b = max(p, q);
   for (uint at = (a * 0x9e3779b1u + b * 0x85ebca77u) >> 16;; ++at) {
     local ushort* const slot = gathered->slots + (at & (GATHERED_SLOTS - 1));
     const uint number = *slot;
@@ -91,114 +94,131 @@ static inline void gather(gathered_t* gathered, uint p, uint q, uint size, uint 
   }
 }
 
-static inline void add_gathered(gathered_t* gathered, uint block, CELL_PARAMETERS, PAIR_PARAMETERS) {
+// Adds what is gathered. Nothing is then.
+static inline void add_gathered(gathered_t* gathered, CELL_PARAMETERS, PAIR_PARAMETERS) {
   if (VOROCL_WIDTH == 1) return;
   for (uint i = 0; i < gathered->count; ++i) {
     const uint3 pair = vload3(i, gathered->pairs);
     const uint3 next = vload3(min(i + PAIRS_AHEAD, gathered->count - 1), gathered->pairs);
     PREFETCH(cells + 4 * (size_t)next.s0);
     PREFETCH(cells + 4 * (size_t)next.s1);
-    PREFETCH(lists + (size_t)next.s0 * LIST_SIZE + (hash_of(next.s0, next.s1) & (LIST_SIZE - 1)));
-    add_border(pair.s0, pair.s1, pair.s2, block, CELL_ARGUMENTS, PAIR_ARGUMENTS);
+    PREFETCH(LIST_OF(next.s0));
+    PREFETCH(LIST_OF(next.s0) + LIST_SIZE);
+    add_border(pair.s0, pair.s1, pair.s2, gathered->block, CELL_ARGUMENTS, PAIR_ARGUMENTS);
   }
-  begin_gathering(gathered);
+  gathered->count = 0;
+  for (uint i = 0; i < GATHERED_SLOTS; ++i) gathered->slots[i] = NO_NUMBER;
 }
 
-// Adds the borders between a row and one beside it, and along the row those between its own runs if `along` says so.
-// Two rows are walked at once, so that along a run the border with the row beside is one piece. Of a row without one
-// beside it, that one is the row itself. Across the ends of a periodic axis borders count as inside.
-__attribute__((always_inline)) static inline void add_borders(global const uint* row, global const uint* beside,
-                                                              block_t block, int width, bool along, uint count,
-                                                              gathered_t* gathered, CELL_PARAMETERS,
-                                                              PAIR_PARAMETERS) {
-  walk_t walk = begin_walk(row, beside, block.left, block.right);
-  while (next_run(&walk)) {
-    const int last = walk.to - 1;
-    const uint label = row[last], other = beside[last], length = (uint)(walk.to - walk.from);
-    if (label >= count) continue;
-    const uint right = along && (PERIODIC_X || walk.to < width) ? row[wrapped(walk.to, width, PERIODIC_X)] : label;
-    if (right < count && right != label)
-      gather(gathered, label, right, 1u, block.index, CELL_ARGUMENTS, PAIR_ARGUMENTS);
-    if (other < count && other != label)
-      gather(gathered, label, other, length, block.index, CELL_ARGUMENTS, PAIR_ARGUMENTS);
-  }
+// Bit i: pixel from + i, of those up to `to`, has another label than the one before it.
+static inline uint changes_along(global const uint* row, int from, int to, int width) {
+  const int first = max(from, 1);
+  const uint found = differences(row + first, row + first - 1, to - first) << (first - from);
+  return found | (PERIODIC_X && from == 0 && row[0] != row[width - 1]);
 }
 
-// `row_behind` has the row that follows the last one along a periodic y, in a volume each slice's.
+// The row that follows one along y (side 0) or z (side 1); the row itself where there is none. `row_behind` has the row
+// that follows the last one along a periodic y, in a volume each slice's.
+static inline global const uint* row_beside(global const uint* labels, global const uint* row_behind, int side, int y,
+                                            int z, int4 size) {
+  if (side == 0 && PERIODIC_Y && y + 1 == size.y) return row_of(row_behind, 0, z, size);
+  const int beside_y = y + (side == 0 && y + 1 < size.y);
+  const int beside_z = side == 0 ? z : wrapped(z + 1, DEPTH(size), PERIODIC_Z);
+  return row_of(labels, beside_y, beside_z < DEPTH(size) ? beside_z : z, size);
+}
+
+// Adds the borders of a block's pixels with those before, below and behind them, where there are any. Of the last two
+// those of a row are one piece where neither row changes. Across the ends of a periodic axis borders count as inside.
 kernel void find_borders(global const uint* restrict labels, global const uint* restrict row_behind, uint count,
                          int4 size, int4 bits, CELL_PARAMETERS, PAIR_PARAMETERS) {
   local ushort slots[GATHERED_SLOTS];
   local uint pairs[3 * MOST_GATHERED];
-  gathered_t gathered = {slots, pairs, 0};
-  const uint most_of_row = 3u << bits.x;  // pairs that it can add
   block_t block;
   if (!take_block(size, bits, &block)) return;
-  begin_gathering(&gathered);
+  gathered_t gathered = {slots, pairs, 0, count, block.index};
   block_t brick = block;
-  for (brick.front = block.front; brick.front < block.back; brick.front += BRICK) {
-    brick.back = min(brick.front + BRICK, block.back);
-    for (brick.top = block.top; brick.top < block.bottom; brick.top += BRICK) {
-      brick.bottom = min(brick.top + BRICK, block.bottom);
-      FOR_EACH_ROW(y, z, brick) {
-        global const uint* const row = row_of(labels, y, z, size);
-        global const uint* const below =
-            y + 1 < size.y ? row + size.x : PERIODIC_Y ? row_of(row_behind, 0, z, size) : row;
-        const int z_behind = wrapped(z + 1, DEPTH(size), PERIODIC_Z);
-        global const uint* const behind = z_behind < DEPTH(size) ? row_of(labels, y, z_behind, size) : row;
-        if (gathered.count + most_of_row > MOST_GATHERED)
-          add_gathered(&gathered, block.index, CELL_ARGUMENTS, PAIR_ARGUMENTS);
-        add_borders(row, below, block, size.x, true, count, &gathered, CELL_ARGUMENTS, PAIR_ARGUMENTS);
-        if (behind != row)
-          add_borders(row, behind, block, size.x, false, count, &gathered, CELL_ARGUMENTS, PAIR_ARGUMENTS);
+  for (brick.front = block.front; brick.front < block.back; brick.front = brick.back) {
+    brick.back = min(brick.front + BRICK_SLICES, block.back);
+    for (brick.top = block.top; brick.top < block.bottom; brick.top = brick.bottom) {
+      brick.bottom = min(brick.top + BRICK_ROWS, block.bottom);
+      for (brick.left = block.left; brick.left < block.right; brick.left = brick.right) {
+        brick.right = min(brick.left + BRICK_WIDTH, block.right);
+        add_gathered(&gathered, CELL_ARGUMENTS, PAIR_ARGUMENTS);
+        FOR_EACH_ROW(y, z, brick) {
+          if (gathered.count + MOST_OF_ROW > MOST_GATHERED)
+            add_gathered(&gathered, CELL_ARGUMENTS, PAIR_ARGUMENTS);
+          global const uint* const row = row_of(labels, y, z, size);
+          const uint changes = changes_along(row, brick.left, brick.right, size.x);
+          for (uint left = changes; left != 0; left &= left - 1) {
+            const int x = brick.left + (int)lowest_bit(left);
+            gather(&gathered, row[wrapped(x - 1, size.x, PERIODIC_X)], row[x], 1, CELL_ARGUMENTS, PAIR_ARGUMENTS);
+          }
+          for (int side = 0; side < 2; ++side) {
+            global const uint* const beside = row_beside(labels, row_behind, side, y, z, size);
+            if (beside == row) continue;
+            const int pixels = brick.right - brick.left;
+            const uint ends = changes | changes_along(beside, brick.left, brick.right, size.x) | 1u;
+            uint left = ends & differences(row + brick.left, beside + brick.left, pixels);
+            for (; left != 0; left &= left - 1) {
+              const int at = (int)lowest_bit(left), x = brick.left + at;
+              const uint length = min(lowest_bit(ends >> at >> 1) + 1, (uint)(pixels - at));
+              gather(&gathered, row[x], beside[x], length, CELL_ARGUMENTS, PAIR_ARGUMENTS);
+            }
+          }
+        }
       }
-      add_gathered(&gathered, block.index, CELL_ARGUMENTS, PAIR_ARGUMENTS);
     }
   }
+  add_gathered(&gathered, CELL_ARGUMENTS, PAIR_ARGUMENTS);
 }
 
-// Moves the table's pairs into the lists. Those that find no room stay: the second word of `overflow` says so.
-kernel void join_pairs(global uint* restrict neighbours, global uint* restrict pairs, PAIR_PARAMETERS) {
+// Moves the table's pairs into the lists. Those that find no room stay: the second word of `overflow` says so. `pairs`
+// counts those that are new.
+kernel void join_pairs(global const uint* restrict cells, global uint* restrict neighbours,
+                       global uint* restrict pairs, global uint* restrict lists, uint mask,
+                       global uint* restrict table, global uint* restrict overflow) {
   const uint at = (uint)get_global_id(0);
   if (at > mask) return;
   const uint3 slot = vload3(at, table);
   if (slot.s0 == NO_PAIR) return;
-  const addition_t added = add_to_shared_list(slot.s0, slot.s1, slot.s2 + 1, PAIR_ARGUMENTS);
-  if (added != KNOWN_PAIR) atomic_inc(neighbours + slot.s1);
-  if (added != NO_ROOM) {
+  const uint listed = cells[4 * (size_t)slot.s0 + 1];
+  uint place = place_in_list(LIST_OF(slot.s0), slot.s1, listed, listed);
+  const bool is_new = place == listed;
+  if (is_new) {
+    place += atomic_inc(pairs + slot.s0);
+    atomic_inc(neighbours + slot.s1);
+  }
+  if (place < LIST_SIZE) {
+    if (is_new) LIST_OF(slot.s0)[place] = slot.s1;  // others read the list
+    add_to_list(LIST_OF(slot.s0), slot.s2 + 1, place, is_new);
     table[3 * (size_t)at] = NO_PAIR;
   } else {
-    atomic_inc(pairs + slot.s0);
     atomic_or(overflow + 1, 1u);
   }
 }
 
 // Counts each cell's pairs, in which its id is the lower one; and joins what its home and others have added.
-kernel void count_pairs(uint count, global const uint2* restrict lists, global uint* restrict pairs,
-                        CELL_PARAMETERS) {
+kernel void count_pairs(uint count, global uint* restrict pairs, CELL_PARAMETERS) {
   const uint id = (uint)get_global_id(0);
   if (id >= count) return;
-  uint own = pairs[id];
-  for (uint i = 0; i < LIST_SIZE; ++i) own += lists[(size_t)id * LIST_SIZE + i].s0 != NO_PAIR;
-  pairs[id] = own;
-  neighbours[id] += own + cells[4 * (size_t)id + 2];
-  perimeters[id] += cells[4 * (size_t)id + 3];
+  const uint4 cell = vload4(id, cells);
+  pairs[id] += cell.s1;
+  neighbours[id] += pairs[id] + cell.s2;
+  perimeters[id] += cell.s3;
 }
 
 // Puts the pairs of each cell's list into the cell's place, sorted; `first` is where that begins in the list of all.
-kernel void place_lists(uint count, global const uint2* restrict lists,
-                        global const uint* restrict first, global uint* restrict placed,
-                        global uint* restrict pair_list) {
+kernel void place_lists(uint count, global const uint* restrict lists, global const uint* restrict first,
+                        global uint* restrict placed, global uint* restrict pair_list) {
   const uint id = (uint)get_global_id(0);
   if (id >= count) return;
-  global const uint2* const list = lists + (size_t)id * LIST_SIZE;
-  uint taken = 0;  // bit i: slot i has a pair; a branch on each slot would be mispredicted
-  for (uint i = 0; i < LIST_SIZE; ++i) taken |= (uint)(list[i].s0 != NO_PAIR) << i;
-  placed[id] = popcount(taken);
-  for (; taken != 0; taken &= taken - 1) {
-    const uint2 slot = list[lowest_bit(taken)];
+  global const uint* const list = LIST_OF(id);
+  const uint listed = min(first[id + 1] - first[id], (uint)LIST_SIZE);
+  placed[id] = listed;
+  for (uint i = 0; i < listed; ++i) {
     uint before = 0;
-    for (uint j = 0; j < LIST_SIZE; ++j) before += list[j].s0 < slot.s0;
-    vstore3((uint3)(id, slot), first[id] + before, pair_list);
+    for (uint j = 0; j < LIST_SIZE; ++j) before += j < listed && list[j] < list[i];
+    vstore3((uint3)(id, list[i], list[LIST_SIZE + i]), first[id] + before, pair_list);
   }
 }
 

@@ -41,7 +41,7 @@ kernel void add_sums(global const uint* restrict labels, uint count, int4 size, 
   if (!take_block(size, bits, &block)) return;
   FOR_EACH_ROW(y, z, block) {
     global const uint* const row = row_of(labels, y, z, size);
-    walk_t walk = begin_walk(row, row, block.left, block.right);
+    walk_t walk = begin_walk(row, block);
     while (next_run(&walk)) {
       const uint label = run_label(&walk);
       if (label >= count) continue;
@@ -100,7 +100,7 @@ kernel void add_areas(global const uint* restrict labels, uint count, int4 size,
   if (!take_block(size, bits, &block)) return;
   FOR_EACH_ROW(y, z, block) {
     global const uint* const row = row_of(labels, y, z, size);
-    walk_t walk = begin_walk(row, row, block.left, block.right);
+    walk_t walk = begin_walk(row, block);
     while (next_run(&walk)) {
       const uint label = run_label(&walk);
       if (label >= count) continue;
@@ -146,7 +146,7 @@ kernel void add_periods(global const uint* restrict labels, SEED_PARAMETERS, int
   if (!take_block(size, bits, &block)) return;
   FOR_EACH_ROW(y, z, block) {
     global const uint* const row = row_of(labels, y, z, size);
-    walk_t walk = begin_walk(row, row, block.left, block.right);
+    walk_t walk = begin_walk(row, block);
     while (next_run(&walk)) {
       const uint label = run_label(&walk);
       if (label >= count) continue;

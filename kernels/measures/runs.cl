@@ -64,49 +64,46 @@ static inline global const uint* row_of(global const uint* labels, int y, int z,
   return labels + (z * size.y + y) * size.x;
 }
 
-// A walk along the runs of a block's row: [from, to) is the present one. Where two rows are walked at once a
-// run ends where either changes.
+// Bit i: two rows have other labels at pixel i, of at most 32. A CPU would mispredict a branch on each.
+static inline uint differences(global const uint* row, global const uint* other, int pixels) {
+  uint found = 0;
+  for (int i = 0; pixels < VOROCL_WIDTH && i < pixels; ++i) found |= (uint)(row[i] != other[i]) << i;
+#pragma unroll 1  // for registers
+  for (int i = 0; pixels >= VOROCL_WIDTH && i < pixels; i += VOROCL_WIDTH) {
+    const int at = min(i, pixels - VOROCL_WIDTH);  // the last vector passes over what was compared before
+    const uint_v differ = select((uint_v)0, (uint_v)1 << LANES, LOAD_VECTOR(row + at) != LOAD_VECTOR(other + at));
+    found |= lane_sum(differ) << at;
+  }
+  return found;
+}
+
+// A walk along the runs of a block's row: [from, to) is the present one.
+#define COMPARED (VOROCL_WIDTH > 1 ? 32 : 1)  // pixels at once; on GPUs one, for registers
 typedef struct {
   global const uint* row;
-  global const uint* other;
-  int left, right;  // the block's row
+  int right;  // of the block
   int from, to;
-  int base, next;  // the pixels that were compared last begin at base; next is the first one that was not yet
-  uint changes;    // bit i: pixel base + i begins another run
+  int base;      // of COMPARED pixels
+  uint changes;  // bit i: pixel base + i begins another run
 } walk_t;
 
-static inline walk_t begin_walk(global const uint* row, global const uint* other, int left, int right) {
-  const walk_t walk = {row, other, left, right, left, left, left, left + 1, 0u};
+static inline walk_t begin_walk(global const uint* row, block_t block) {
+  const walk_t walk = {row, block.right, block.left, block.left, block.left + 1 - COMPARED, 0u};
   return walk;
 }
 
-// Bit i: pixel i of a vector has another label than the one before it.
-static inline uint changes_of_vector(global const uint* pixels) {
-  return lane_sum(select((uint_v)0, (uint_v)1 << LANES, LOAD_VECTOR(pixels) != LOAD_VECTOR(pixels - 1)));
-}
-
-// Goes to the next run; false at the end of the row. All changes of a vector are found at once: a CPU would
-// mispredict a branch for every run.
+// Goes to the next run; false at the end of the row.
 __attribute__((always_inline)) static inline bool next_run(walk_t* walk) {
   walk->from = walk->to;
   if (walk->from >= walk->right) return false;
   while (walk->changes == 0) {
-    if (walk->next >= walk->right) {
+    walk->base += COMPARED;
+    if (walk->base >= walk->right) {
       walk->to = walk->right;
       return true;
     }
-    if (walk->right - walk->left > VOROCL_WIDTH) {
-      // The last vector of the row is moved left; it ends with the row and passes over what was compared before.
-      walk->base = min(walk->next, walk->right - VOROCL_WIDTH);
-      walk->changes = changes_of_vector(walk->row + walk->base);
-      if (walk->other != walk->row) walk->changes |= changes_of_vector(walk->other + walk->base);
-      walk->changes &= 0xffffffffu << (walk->next - walk->base);
-      walk->next = walk->base + VOROCL_WIDTH;
-    } else {
-      walk->base = walk->next++;
-      walk->changes = (uint)(walk->row[walk->base] != walk->row[walk->base - 1] ||
-                             walk->other[walk->base] != walk->other[walk->base - 1]);
-    }
+    global const uint* const first = walk->row + walk->base;
+    walk->changes = differences(first, first - 1, min(COMPARED, walk->right - walk->base));
   }
   walk->to = walk->base + (int)lowest_bit(walk->changes);
   walk->changes &= walk->changes - 1;

@@ -105,7 +105,7 @@ kernel void add_shapes(global const uint* restrict labels, SEED_PARAMETERS, int4
   FOR_EACH_ROW(y, z, block) {
     rows_t rows;
     rows.row = start_of_row(y, z, size);
-    walk_t walk = begin_walk(labels + rows.row, labels + rows.row, block.left, block.right);
+    walk_t walk = begin_walk(labels + rows.row, block);
     while (next_run(&walk)) {
       const uint label = run_label(&walk);
       if (label >= count) continue;

@@ -26,7 +26,7 @@ kernel void add_weights(global const uint* restrict labels, SEED_PARAMETERS, int
   FOR_EACH_ROW(y, z, block) {
     global const uint* const row = row_of(labels, y, z, size);
     global const ushort* const of_row = weights + (row - labels);
-    walk_t walk = begin_walk(row, row, block.left, block.right);
+    walk_t walk = begin_walk(row, block);
     while (next_run(&walk)) {
       const uint label = run_label(&walk);
       if (label >= count || !is_there(seeds[label])) continue;

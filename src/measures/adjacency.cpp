@@ -74,8 +74,7 @@ std::pair<cl::Event, cl::Event> AdjacencyState::find(const MeasuredDiagram& diag
   const SlotsOfCell slots(diagram, blocks);
   slot_count = in_slots > 0 ? in_slots : first_slots(std::size_t{slots.table} * count);
   large_enough = listed_all = false;
-  const std::size_t words_of_lists = std::size_t{2} * slots.list * count;
-  make_room(lists, device, words_of_lists * word);
+  make_room(lists, device, std::size_t{2} * slots.list * count * word);
   make_room(table, device, slot_count * words_per_pair * word);
   make_room(overflow, device, 2 * word);
   make_room(cells, device, count * sizeof(cl_uint4));
@@ -84,10 +83,7 @@ std::pair<cl::Event, cl::Event> AdjacencyState::find(const MeasuredDiagram& diag
   }
   const cl::Event begun = fill(device, table, no_pair, slot_count * words_per_pair);
   fill(device, overflow, cl_uint{0}, 2);
-  if (count > 0) {
-    fill(device, lists, no_pair, words_of_lists);
-    fill(device, pairs_of_cell, cl_uint{0}, count);
-  }
+  if (count > 0) fill(device, pairs_of_cell, cl_uint{0}, count);
   const auto run = [&](const char* name, std::size_t items, const auto&... arguments) {
     return kernels.get(device, kernel_file, name, diagram.grid, options).over_items(items, arguments...);
   };
@@ -98,9 +94,8 @@ std::pair<cl::Event, cl::Event> AdjacencyState::find(const MeasuredDiagram& diag
              count, diagram.size(), blocks.bits(), cells, neighbours, perimeters, lists, mask, slots.table,
              table, overflow);
   const cl::Event joined =
-      run("join_pairs", slot_count, neighbours, pairs_of_cell, lists, mask, slots.table, table, overflow);
-  const cl::Event counted =
-      run("count_pairs", count, count, lists, pairs_of_cell, cells, neighbours, perimeters);
+      run("join_pairs", slot_count, cells, neighbours, pairs_of_cell, lists, mask, table, overflow);
+  const cl::Event counted = run("count_pairs", count, count, pairs_of_cell, cells, neighbours, perimeters);
   return {begun, count > 0 ? counted : joined};
 }
 
