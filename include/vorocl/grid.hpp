@@ -165,10 +165,9 @@ class VOROCL_API Axis {
 /// may be periodic, and any may be spaced (Axis::spaced()): distances are in units of the spacing then, and
 /// measures of cells count pixels.
 ///
-/// Seeds, diagrams, prepare(), exact_diagram(), jump_flooding(), its plan, flood(), cell_sums(),
-/// cell_shapes(), cell_statistics(), adjacency(), distance_errors(), similarity(), distance_field() and
-/// expand_labels() take volumes, and planes with an axis that is spaced; exact_cells() takes volumes without
-/// one. Others throw Error for them.
+/// Volumes, and planes with an axis that is spaced, are taken by all but methods that flood other than jump
+/// flooding, exact diagrams by the Manhattan metric or great circles, vertices(), motions at random and
+/// tiles, which throw Error for them. exact_cells() takes volumes, but no axis that is spaced.
 class VOROCL_API Grid {
  public:
   Grid(const Axis& x, const Axis& y, const Axis& z = Axis(1)) : x_(x), y_(y), z_(z) {}

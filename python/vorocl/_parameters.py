@@ -68,15 +68,14 @@ outside : {"count", "absent", "refuse"}, optional
     What becomes of points outside the grid or the bounds. "count": the grid is a window of a larger plane, and they are
     seeds too, up to 2**31 pixels away; a method that floods refuses them. "absent": they have no cell. "refuse": they
     are an error. With the last two, a point at x1 or y1 is in the last pixel, as along the other axis of a periodic
-    grid. In a volume "count" refuses too.""",
+    grid. In a volume, and with a `spacing`, "count" refuses too.""",
     "y_up": """\
 y_up : bool, optional
     Whether y of the points goes up: rows are counted from the bottom then.""",
     "spacing": """\
 spacing : sequence of int, optional
     As how many units distances count a pixel along x and y, in a volume a voxel along x, y and z: from 1 to 64, such as
-    (1, 1, 4) for slices that lie four pixels apart. Distances in pixels are in these units then. Exact diagrams move
-    points to the centres of their pixels, and refuse points outside.""",
+    (1, 1, 4) for slices that lie four pixels apart. Distances in pixels are in these units then.""",
     "units": """\
 units : {"data", "pixels"}, optional
     What results are in: the units of the points, or pixels, x to the right and y down. Without it, the units of the

@@ -12,7 +12,9 @@ Report exact_diagram(const Seeds& seeds, Diagram& diagram, const ExactOptions& o
   DiagramState& state = Internal::state(diagram);
   if (options.metric == Metric::great_circle) return exact_diagram_on_globe(filling, state);
   if (state.grid.is_volume() && options.metric == Metric::manhattan) {
-    throw Error("exact diagrams of volumes are Euclidean; jump flooding takes the Manhattan metric");
+    throw Error(
+        "exact diagrams of volumes and spaced planes are Euclidean; jump flooding takes the Manhattan "
+        "metric");
   }
   if (labels_by_passes(filling, state)) return exact_diagram_by_passes(filling, state);
   return exact_diagram_by_places(filling, state);
