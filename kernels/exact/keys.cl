@@ -339,57 +339,107 @@ NOINLINE static bool label_by_keys(const scene_t* scene, const list_t* list, int
   return true;
 }
 
-// The same of a box of eight columns and more places: keys without ranks, and beside the least one the place
-// that it is of. Where two places of a pixel have the least key they are compared in 64 bits. `found`: the
-// places that win, pixel by pixel.
-#define ROWS 4
-NOINLINE static bool find_by_keys(const scene_t* scene, const list_t* list, int count, box_t b, uint* found) {
-  if (spread_of_keys(list, count, b) >= MOST_SPREAD) return false;
-#if IS_MANHATTAN
-  const uint base = abs(list->x[0] - HALF) + abs(list->y[0] - HALF);
-#else
+// --- more places ---
+//
+// Keys without ranks, which take as many of the low bits as there is room for. Of eight places at a time the
+// least key is taken, and it is known of which eight; which one of these it is is looked up at the end. Where
+// two places of a pixel have the least key they are compared in 64 bits.
+
+// Keys are those of the origin less so much per pixel; by the Manhattan metric they are distances.
+typedef struct {
+  uint of_first;
+  uint more;  // low bits
+#if !IS_MANHATTAN
   uint high[LIST_ROOM];
-  for (int k = 0; k < count; k += 8) store_uints(squares_of(load_from_list(list, k)).high, high + k);
+#endif
+} keys_t;
+
+// The keys of eight places at a pixel, which is so far from that of the origin.
+static inline int8 keys_at(const list_t* list, const keys_t* keys, int k, int x, int y, int z) {
+  (void)z;
+#if IS_MANHATTAN
+  return as_int8(absolute(vload8(0, list->x + k) - HALF - x * ONE) +
+                 absolute(vload8(0, list->y + k) - HALF - y * ONE) - keys->of_first);
+#else
+  uint8 own = as_uint8(vload8(0, list->x + k) - list->x[0]) * (uint)(x * SPACING_X);
+  own += as_uint8(vload8(0, list->y + k) - list->y[0]) * (uint)(y * SPACING_Y);
+#if IS_VOLUME
+  own += as_uint8(vload8(0, list->z + k) - list->z[0]) * (uint)(z * SPACING_Z);
+#endif
+  return as_int8(vload8(0, keys->high + k) - keys->of_first - (own << keys->more));
+#endif
+}
+
+// Finds the places that win at the pixels of a box of eight columns, pixel by pixel; false if keys do not
+// hold them.
+#define ROWS (IS_VOLUME ? 4 : 8)  // of a part, at once
+NOINLINE static bool find_by_keys(const scene_t* scene, const list_t* list, int count, box_t b, uint* found) {
+  const float spread = spread_of_keys(list, count, b);
+  if (spread >= MOST_SPREAD) return false;
+  keys_t keys;
+#if IS_MANHATTAN
+  keys.of_first = abs(list->x[0] - HALF) + abs(list->y[0] - HALF), keys.more = 0;
+#else
+  keys.more = (uint)min(ilogb(MOST_SPREAD / spread), LOW_BITS);
+  for (int k = 0; k < count; k += 8) {
+    const squares_t squares = squares_of(load_from_list(list, k));
+    store_uints(squares.high << keys.more | squares.low >> (LOW_BITS - keys.more), keys.high + k);
+  }
+  keys.of_first = keys.high[0];
 #endif
   const uint8 columns = as_uint8(EIGHT - 4);
   for (int row = 0; row < b.sy * b.sz; row += ROWS) {
-    const int y = row % b.sy, z = row / b.sy;
+    const int y = row % b.sy - b.sy / 2, z = row / b.sy - b.sz / 2;
     int8 least[ROWS], best[ROWS], is_tie[ROWS];
 #pragma unroll
     for (int r = 0; r < ROWS; ++r) least[r] = INT_MAX, best[r] = 0, is_tie[r] = 0;
-    for (int i = 0; i < count; ++i) {
+    for (int k = 0; k < count; k += 8) {
+      int8 least_of_eight[ROWS];
+#pragma unroll
+      for (int r = 0; r < ROWS; ++r) least_of_eight[r] = INT_MAX;
+      for (int i = k; i < min(k + 8, count); ++i) {
 #if IS_MANHATTAN
-      const uint8 of_columns = absolute(list->x[i] - HALF - as_int8(columns) * ONE) - base;
+        const uint8 of_columns = absolute(list->x[i] - HALF - as_int8(columns) * ONE) - keys.of_first;
 #else
-      const uint from_x = (uint)(list->x[i] - list->x[0]) * SPACING_X;
-      const uint from_y = (uint)(list->y[i] - list->y[0]) * SPACING_Y;
-      uint of_row = high[i] - high[0] - (uint)(y - b.sy / 2) * from_y;
+        const uint from_x = (uint)(list->x[i] - list->x[0]) * SPACING_X << keys.more;
+        const uint from_y = (uint)(list->y[i] - list->y[0]) * SPACING_Y << keys.more;
+        uint of_row = keys.high[i] - keys.of_first - (uint)y * from_y;
 #if IS_VOLUME
-      of_row -= (uint)(z - b.sz / 2) * ((uint)(list->z[i] - list->z[0]) * SPACING_Z);
+        of_row -= (uint)z * ((uint)(list->z[i] - list->z[0]) * SPACING_Z << keys.more);
 #endif
-      uint8 keys = of_row - columns * from_x;
+        uint8 own = of_row - columns * from_x;
 #endif
 #pragma unroll
-      for (int r = 0; r < ROWS; ++r) {
+        for (int r = 0; r < ROWS; ++r) {
 #if IS_MANHATTAN
-        const uint8 keys = of_columns + abs(list->y[i] - HALF - (y + r - b.sy / 2) * ONE);
+          const uint8 own = of_columns + abs(list->y[i] - HALF - (y + r) * ONE);
 #endif
-        const int8 key = as_int8(keys), is_less = key < least[r];
-        is_tie[r] = (is_tie[r] & ~is_less) | (key == least[r]);
-        best[r] = select(best[r], (int8)i, is_less);
-        least[r] = min(least[r], key);
+          least_of_eight[r] = min(least_of_eight[r], as_int8(own));
 #if !IS_MANHATTAN
-        keys -= from_y;
+          own -= from_y;
 #endif
+        }
+      }
+#pragma unroll
+      for (int r = 0; r < ROWS; ++r) {
+        const int8 is_less = least_of_eight[r] < least[r];
+        is_tie[r] = (is_tie[r] & ~is_less) | (least_of_eight[r] == least[r]);
+        best[r] = select(best[r], (int8)k, is_less);
+        least[r] = min(least[r], least_of_eight[r]);
       }
     }
     for (int r = 0; r < ROWS; ++r) {
-      uint* const of_row = found + (row + r) * 8;
-      store_uints(as_uint8(best[r]), of_row);
-      for (int i = 0; i < 8; ++i) of_row[i] = list->at[of_row[i]];
-      for (uint rest = mask_of(is_tie[r]); rest != 0; rest &= rest - 1) {
-        const int i = 31 - (int)clz(rest & (0 - rest));
-        of_row[i] = nearest_at(scene, b, list, count, b.x + i, b.y + y + r, b.z + z);
+      int lane[8], first[8];
+      store_ints(least[r], lane), store_ints(best[r], first);
+      const uint ties = mask_of(is_tie[r]);
+      for (int i = 0; i < 8; ++i) {
+        const int k = first[i];
+        const uint mask =
+            mask_of((keys_at(list, &keys, k, i - 4, y + r, z) == lane[i]) & (EIGHT + k < count));
+        found[(row + r) * 8 + i] =
+            (ties >> i & 1u) || (mask & (mask - 1))
+                ? nearest_at(scene, b, list, count, b.x + i, b.y + b.sy / 2 + y + r, b.z + b.sz / 2 + z)
+                : list->at[k + 31 - (int)clz(mask)];
       }
     }
   }

@@ -368,16 +368,19 @@ NOINLINE static int drop_by_slices(list_t* list, int count, box_t box) {
 #else
   const int* const along[3] = {list->x, list->y, list->x};
 #endif
-  // The axis along which the places lie farthest apart.
-  int axis = 0, longest = -1, shortest = INT_MAX;
+  // The axis along which the places lie farthest apart: this pays where they lie along a line.
+  int axis = 0, longest = -1, next = -1;
   for (int i = 0; i < VOROCL_DIMENSIONS; ++i) {
     const extent_t extent = extent_of(along[i], count);
     if (extent.first < -MOST_OF_SUMS || extent.last > MOST_OF_SUMS) return count;
     const int length = extent.last - extent.first;
-    if (length > longest) axis = i, longest = length;
-    shortest = min(shortest, length);
+    if (length > longest) {
+      axis = i, next = longest, longest = length;
+    } else {
+      next = max(next, length);
+    }
   }
-  if (!IS_VOLUME && shortest > longest / 4) return count;  // pays where a plane's places lie along a line
+  if (next > longest / 16) return count;
   const int at_a = axis == 0 ? 1 : 0, at_b = axis == 2 ? 1 : 2, slices = min(sides[axis], MOST_SLICES);
   const int thickness = sides[axis] / slices, step = units[axis] * thickness;
   const float w_own = (float)(thickness - 1) * (float)units[axis];
