@@ -166,8 +166,9 @@ class VOROCL_API Axis {
 /// measures of cells count pixels.
 ///
 /// Volumes, and planes with an axis that is spaced, are taken by all but methods that flood other than jump
-/// flooding, exact diagrams by the Manhattan metric or great circles, vertices(), motions at random and
-/// tiles, which throw Error for them. exact_cells() takes volumes, but no axis that is spaced.
+/// flooding, exact diagrams by the Manhattan metric or great circles, vertices(), motions at random, tiles
+/// and windows of a part of the grid, which throw Error for them. exact_cells() takes volumes, but no axis
+/// that is spaced; nor do weights.
 class VOROCL_API Grid {
  public:
   Grid(const Axis& x, const Axis& y, const Axis& z = Axis(1)) : x_(x), y_(y), z_(z) {}

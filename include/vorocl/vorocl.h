@@ -250,8 +250,8 @@ enum { VOROCL_OUTSIDE_COUNTS = 0, VOROCL_OUTSIDE_IS_ABSENT = 1, VOROCL_OUTSIDE_I
 typedef int vorocl_snap;
 enum { VOROCL_SNAP_TO_PIXELS = 0, VOROCL_SNAP_NONE = 1 };
 
-/// `outside` and `snap` hold for all frames. In a volume VOROCL_OUTSIDE_COUNTS refuses points outside. See
-/// vorocl::Seeds.
+/// `outside` and `snap` hold for all frames. In a volume, and in a plane with an axis that is
+/// spaced, VOROCL_OUTSIDE_COUNTS refuses points outside. See vorocl::Seeds.
 VOROCL_API vorocl_status vorocl_seeds_from_points(const vorocl_device* device, vorocl_grid grid,
                                                   const vorocl_point* points, const uint8_t* present,
                                                   size_t count, vorocl_outside outside, vorocl_snap snap,

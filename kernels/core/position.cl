@@ -1,7 +1,7 @@
 // Seed positions, distances and the tie rule: what every engine must agree on, to the bit.
 //
-// A seed's position is packed as y << 16 | x. The sign bit says that there is no seed (EMPTY); real coordinates
-// are at most 0x7fff.
+// A seed's position is packed as y << 16 | x, in volumes as volumes/position.cl says. The sign bit says that there is
+// no seed (EMPTY); real coordinates are at most 0x7fff.
 
 #ifndef VOROCL_POSITION
 #define VOROCL_POSITION
@@ -10,14 +10,28 @@
 #include "core/periods.cl"
 #include "core/vector.cl"
 
+#if VOROCL_DIMENSIONS == 3
+#include "volumes/position.cl"
+#else
+
 #define EMPTY 0x80008000u
 #define LAST_COORDINATE 0x7fff
 
-static inline uint pack(int x, int y) { return (uint)y << 16 | (uint)x; }
-static inline int packed_x(uint position) { return (int)(position & 0xffffu); }
-static inline int packed_y(uint position) { return (int)(position >> 16); }
+#define SHIFT_Y 16
+static inline uint pack(int x, int y) { return (uint)y << SHIFT_Y | (uint)x; }
+static inline uint packed(int3 at) { return pack(at.x, at.y); }
+static inline int x_of(uint position) { return (int)(position & 0xffffu); }
+static inline int y_of(uint position) { return (int)(position >> SHIFT_Y); }
+static inline int z_of(uint position) {
+  (void)position;
+  return 0;
+}
 
 // Where a seed's pixel is in a row-major image.
+static inline uint index_of_seed(uint position, int width, int height) {
+  (void)height;
+  return (uint)(y_of(position) * width + x_of(position));
+}
 static inline uint_v pixel_index(uint_v position, int width) {
   return (position >> 16) * (uint)width + (position & 0xffffu);
 }
@@ -130,4 +144,5 @@ static inline uint_v first_of_nearest(uint_v best, uint_v candidate, uint_v dist
   return select(best, min(best, candidate), distance == least);
 }
 
+#endif
 #endif

@@ -421,7 +421,7 @@ NOINLINE static int drop_by_slices(list_t* list, int count, box_t box) {
 
 #endif
 
-// Drops in place what another place is seen to beat; crowds are looked at slice by slice.
+// Drops in place what another place is seen to beat; crowds along a line are looked at slice by slice.
 static inline int drop_beaten(list_t* list, int count, box_t box) {
   if (count > FEW_PLACES) count = drop_by_corners(list, count, box);
 #if !IS_MANHATTAN

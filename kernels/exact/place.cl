@@ -15,17 +15,13 @@
 
 #include "core/metric.cl"
 #include "core/periods.cl"
+#include "core/position.cl"
 #include "core/units.cl"
 #include "core/vector.cl"
 #include "exact/lanes.cl"
 #include "exact/sizes.cl"
 
 #define IS_VOLUME (VOROCL_DIMENSIONS == 3)
-#if IS_VOLUME
-#include "volumes/position.cl"
-#else
-#include "core/position.cl"
-#endif
 #ifdef VOROCL_MANHATTAN
 #define IS_MANHATTAN 1
 #else
@@ -64,11 +60,7 @@
 typedef uint given_t;
 static inline bool is_given(given_t given) { return !(given & EMPTY_BIT); }
 static inline int4 place_of(given_t given) {
-#if IS_VOLUME
-  return (int4)(x_of(given), y_of(given), z_of(given), 0) * ONE + (int4)(HALF, HALF, HALF, 0);
-#else
-  return (int4)(packed_x(given), packed_y(given), 0, 0) * ONE + (int4)(HALF, HALF, 0, 0);
-#endif
+  return (int4)(x_of(given), y_of(given), z_of(given), 0) * ONE + (int4)(HALF, HALF, IS_VOLUME ? HALF : 0, 0);
 }
 #elif IS_VOLUME
 typedef int4 given_t;

@@ -34,13 +34,6 @@ VECTOR_KERNEL void measure_labels(global const uint* restrict labels, global con
   if (ANY(missing > 0)) atomic_add(found + 1, lane_sum(missing));
 }
 
-// Stamps the seeds at their new pixels. Seeds on one pixel write the same value.
-kernel void stamp_positions(global const uint* restrict positions, uint count, global uint* restrict out, int width) {
-  const uint id = (uint)get_global_id(0);
-  if (id >= count || positions[id] & EMPTY_BIT) return;
-  out[VOROCL_GUARD + packed_y(positions[id]) * width + packed_x(positions[id])] = positions[id];
-}
-
 // Reports whether a pixel has no label.
 VECTOR_KERNEL void find_unlabelled(global const uint* restrict labels, int width, int height,
                                    global int* restrict found) {

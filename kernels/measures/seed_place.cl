@@ -18,14 +18,9 @@
 
 // What both kinds of positions need comes first, for a file is included once, whichever branch that is in.
 #include "core/metric.cl"
+#include "core/position.cl"
 #include "core/units.cl"
 #include "measures/runs.cl"
-
-#if VOROCL_DIMENSIONS == 3
-#include "volumes/position.cl"
-#else
-#include "core/position.cl"
-#endif
 
 // The window: its pixels, the periods that distances know, 0 along an axis without one, and the tilt, in units.
 typedef struct {
@@ -106,25 +101,14 @@ static inline window_t window_of(int4 size, int4 periods) {
 
 static inline bool is_there(seed_t seed) { return !(seed & EMPTY_BIT); }
 
-#if VOROCL_DIMENSIONS == 3
-#define SEED_X x_of
-#define SEED_Y y_of
 static inline int seed_z(seed_t seed) { return z_of(seed); }
-#else
-#define SEED_X packed_x
-#define SEED_Y packed_y
-static inline int seed_z(seed_t seed) {
-  (void)seed;
-  return 0;
-}
-#endif
 static inline int seed_x(seed_t seed, int width) {
   (void)width;
-  return SEED_X(seed);
+  return x_of(seed);
 }
 static inline int seed_y(seed_t seed, int height) {
   (void)height;
-  return SEED_Y(seed);
+  return y_of(seed);
 }
 
 static inline int centre_behind_x(seed_t seed) {
@@ -141,10 +125,10 @@ static inline int centre_behind_z(seed_t seed) {
 }
 
 static inline int way_x(seed_t seed, int x, window_t window) {
-  return shorter_way(x - SEED_X(seed), window.width, PERIODIC_X);
+  return shorter_way(x - x_of(seed), window.width, PERIODIC_X);
 }
 static inline int way_y(seed_t seed, int y, window_t window) {
-  return shorter_way(y - SEED_Y(seed), window.height, PERIODIC_Y);
+  return shorter_way(y - y_of(seed), window.height, PERIODIC_Y);
 }
 static inline int way_z(seed_t seed, int z, window_t window) {
   return shorter_way(z - seed_z(seed), window.depth, PERIODIC_Z);

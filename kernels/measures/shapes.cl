@@ -75,10 +75,8 @@ static inline LENGTH distance_of_farthest(uint found, seed_t seed, window_t wind
 #if KEEPS_DISTANCES
   (void)seed, (void)window;
   return (LENGTH)found;
-#elif VOROCL_DIMENSIONS == 3
-  return distance_to(seed, x_of(found), y_of(found), z_of(found), window);
 #else
-  return distance_to(seed, packed_x(found), packed_y(found), 0, window);
+  return distance_to(seed, x_of(found), y_of(found), z_of(found), window);
 #endif
 }
 

@@ -37,7 +37,7 @@ static inline uint_v mark_vertices(global const uint* row, global const uint* be
   uint lane[VOROCL_WIDTH];
   STORE_VECTOR(words, lane);
   for (; x < end; ++x) {
-    const int right = wrapped_x(x + 1, width), at = x - first;
+    const int right = wrapped(x + 1, width, PERIODIC_X), at = x - first;
     if (is_vertex(row[x], row[right], below[x], below[right])) lane[at % VOROCL_WIDTH] |= 1u << at / VOROCL_WIDTH;
   }
   return LOAD_VECTOR(lane);

@@ -39,22 +39,14 @@ static inline int nearest_to_mean(long sum, long weight, int present) {
   return twice_the_rest < weight ? (int)low : (int)low + 1;
 }
 
-#if VOROCL_DIMENSIONS == 3
-#define PACKED_AT(position) (int3)(x_of(position), y_of(position), z_of(position))
-#define PACK(at) pack(at.x, at.y, at.z)
-#else
-#define PACKED_AT(position) (int3)(packed_x(position), packed_y(position), 0)
-#define PACK(at) pack(at.x, at.y)
-#endif
-
 // Moves a seed to the mean of what its cell's sums are of. Returns how far along an axis.
 static inline uint move_to_mean(global uint* position, long weight, long sum_x, long sum_y, long sum_z, int4 size) {
-  const int3 from = PACKED_AT(*position);
+  const int3 from = (int3)(x_of(*position), y_of(*position), z_of(*position));
   const int3 to = (int3)(nearest_to_mean(sum_x, weight, from.x), nearest_to_mean(sum_y, weight, from.y),
                          nearest_to_mean(sum_z, weight, from.z));
   const int3 inside = (int3)(wrapped(to.x, size.x, PERIODIC_X), wrapped(to.y, size.y, PERIODIC_Y),
                              wrapped(to.z, size.z, PERIODIC_Z));
-  *position = PACK(inside);
+  *position = packed(inside);
   return max(max(abs(to.x - from.x), abs(to.y - from.y)), abs(to.z - from.z));
 }
 

@@ -76,6 +76,6 @@ VECTOR_KERNEL void write_labels(global const uint* restrict image, global const 
   STORE_VECTOR(LOAD_VECTOR(image + VOROCL_GUARD + first), position);
   for (int i = 0; i < VOROCL_WIDTH; ++i) {
     labels[first + (size_t)i] =
-        ids[position[i] & EMPTY ? 0 : FIRST_ID + voxel_index(position[i], width, height)];
+        ids[position[i] & EMPTY ? 0 : FIRST_ID + index_of_seed(position[i], width, height)];
   }
 }

@@ -121,16 +121,9 @@ Seeds Seeds::random(const Device& device, const Grid& grid, std::size_t count, s
   SeedsState& state = seeds.state();
   const std::shared_ptr<cl::Buffer> positions = state.room_for_positions(count);
   const cl_uint2 key = {{static_cast<cl_uint>(rng_seed), static_cast<cl_uint>(rng_seed >> 32)}};
-  if (has_voxels(grid)) {
-    Kernel kernel(device, "volumes/seeds.cl", "random_voxels", pixels);
-    kernel.over_items(count / kernel.vector_width() + 1, *positions, static_cast<cl_uint>(count),
-                      pixels.width(), pixels.height(), pixels.depth(), key);
-    state.place_on_device(count, positions);
-    return seeds;
-  }
   Kernel kernel(device, "core/seeds.cl", "random_positions", pixels);
   kernel.over_items(count / kernel.vector_width() + 1, *positions, static_cast<cl_uint>(count),
-                    pixels.width(), pixels.height(), key);
+                    cl_int4{{pixels.width(), pixels.height(), pixels.depth(), 0}}, key);
   state.place_on_device(count, positions);
   place_images_of_long_periods(state, pixels);
   return seeds;

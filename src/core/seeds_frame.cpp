@@ -61,13 +61,9 @@ double way_on_device(const SeedsFrame& earlier, const SeedsFrame& now) {
   const cl::Buffer greatest = allocate(now.device, sizeof(cl_uint), "the way of the seeds");
   fill(now.device, greatest, cl_uint{0}, 1);
   const PixelGrid& grid = now.whole->grid;
-  const auto run = [&](const char* file, const auto&... sides) {
-    Kernel(now.device, file, "find_greatest_way", grid)
-        .over_items(count, *earlier.whole->positions, *now.whole->positions, static_cast<cl_uint>(count),
-                    sides..., greatest);
-  };
-  grid.is_volume() ? run("volumes/seeds.cl", grid.width(), grid.height(), grid.depth())
-                   : run("core/seeds.cl", grid.width(), grid.height());
+  Kernel(now.device, "core/seeds.cl", "find_greatest_way", grid)
+      .over_items(count, *earlier.whole->positions, *now.whole->positions, static_cast<cl_uint>(count),
+                  cl_int4{{grid.width(), grid.height(), grid.depth(), 0}}, greatest);
   return download<cl_uint>(now.device, greatest, 1).front();
 }
 

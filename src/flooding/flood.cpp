@@ -31,9 +31,10 @@ cl::Event label_by_last_wave(Filling& filling, const DiagramState& diagram, cons
   const PixelGrid& grid = filling.placement().grid;
   const cl::Buffer& positions = *filling.placement().positions;
   const auto count = static_cast<cl_uint>(filling.seeds().size);
-  const char* const file = "core/seeds.cl";
-  filling.kernel(file, "clear_ids").over_items(count + 1, positions, count, ids, grid.width());
-  filling.kernel(file, "stamp_ids").over_items(count, positions, count, ids, grid.width());
+  for (const char* const name : {"clear_ids", "stamp_ids"}) {
+    filling.kernel("core/seeds.cl", name)
+        .over_items(count + 1, positions, count, ids, grid.width(), grid.height());
+  }
   return filling.kernel("flooding/jump_flooding.cl", "last_wave", wave.neighbourhood)
       .over_grid(image, ids, diagram.labels, grid.width(), grid.height(), wave.step);
 }
@@ -72,8 +73,8 @@ void Flood::advance_labels() {
   begins_with(
       filling_.kernel("flooding/dynamic_jump_flooding.cl", "advance_labels")
           .over_grid(diagram_.labels, positions_, count_, memory_.front, grid_.width(), grid_.height()));
-  filling_.kernel("flooding/dynamic_jump_flooding.cl", "stamp_positions")
-      .over_items(count_, positions_, count_, memory_.front, grid_.width());
+  filling_.kernel("core/seeds.cl", "stamp_positions")
+      .over_items(count_, positions_, count_, memory_.front, grid_.width(), grid_.height());
 }
 
 LabelDistances Flood::label_distances() {

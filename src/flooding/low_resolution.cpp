@@ -80,8 +80,8 @@ class Reconstruction {
 
   cl::Event stamp() {
     cl::Event first = fill(diagram_.device, at(0).seeds, absent_position, at(0).grid.pixels() + 2 * guard);
-    filling_.kernel("flooding/dynamic_jump_flooding.cl", "stamp_positions")
-        .over_items(count_, positions_, count_, at(0).seeds, width(0));
+    filling_.kernel("core/seeds.cl", "stamp_positions")
+        .over_items(count_, positions_, count_, at(0).seeds, width(0), at(0).grid.height());
     return first;
   }
 

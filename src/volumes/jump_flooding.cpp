@@ -25,7 +25,7 @@ Report flood_volume(Filling& filling, DiagramState& state, const Plan& plan) {
   state.reserve(front, voxels * sizeof(cl_uint));
   state.reserve(back, voxels * sizeof(cl_uint));
   const auto of_seeds = [&](const char* name, const cl::Buffer& image) {
-    filling.kernel("volumes/seeds.cl", name).over_items(seeds, positions, count, image, width, height);
+    filling.kernel("core/seeds.cl", name).over_items(seeds + 1, positions, count, image, width, height);
   };
   const cl::Event first = fill(state.device, front, cl_uint{absent_voxel}, voxels);
   of_seeds("stamp_positions", front);
@@ -34,7 +34,6 @@ Report flood_volume(Filling& filling, DiagramState& state, const Plan& plan) {
         .over_grid(front, back, width, height, depth, wave.step);
     std::swap(front, back);
   }
-  fill(state.device, back, no_label, 1);  // the label of an empty position
   of_seeds("clear_ids", back);
   of_seeds("stamp_ids", back);
   const cl::Event last = filling.kernel("volumes/jump_flooding.cl", "write_labels")

@@ -6,12 +6,15 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <optional>
+#include <string>
 #include <thread>
 
 #include "brute_force.hpp"
 #include "fixture.hpp"
 #include "runtime/buffer.hpp"
 #include "runtime/program.hpp"
+#include "variable.hpp"
 
 using namespace vorocl;
 
@@ -178,9 +181,10 @@ BOOST_AUTO_TEST_CASE(a_forked_child_is_refused_at_once) {
   Seeds seeds(device, grid, {{1, 2}, {30, 20}}, to_centres);
   Diagram diagram(device, grid);
   // The driver compiles while the process forks: no other process has had this option.
-  setenv("VOROCL_BUILD_OPTIONS", ("-DVOROCL_OF_PROCESS=" + std::to_string(getpid())).c_str(), 1);
+  std::optional<Variable> options(std::in_place, "VOROCL_BUILD_OPTIONS",
+                                  "-DVOROCL_OF_PROCESS=" + std::to_string(getpid()));
   const Report report = exact_diagram(seeds, diagram);
-  unsetenv("VOROCL_BUILD_OPTIONS");
+  options.reset();
   seeds.move_to({{3, 4}, {20, 20}});
   const pid_t child = fork();
   if (child == 0) {

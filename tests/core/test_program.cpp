@@ -10,6 +10,7 @@
 #include "runtime/kernel_sources.hpp"
 #include "runtime/program.hpp"
 #include "temporary_folder.hpp"
+#include "variable.hpp"
 
 using namespace vorocl;
 
@@ -38,18 +39,6 @@ clBuildProgram(cl_program program, cl_uint count, const cl_device_id* devices, c
 }
 
 namespace {
-
-/// Sets a variable of the environment for as long as it lives.
-class Variable {
- public:
-  Variable(const char* name, const std::string& value) : name_(name) { setenv(name, value.c_str(), 1); }
-  ~Variable() { unsetenv(name_); }
-  Variable(const Variable&) = delete;
-  Variable& operator=(const Variable&) = delete;
-
- private:
-  const char* name_;
-};
 
 const Grid grid(24, 16);
 const std::vector<Pixel> pixels = random_pixels(grid, 5, 1);

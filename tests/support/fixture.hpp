@@ -18,7 +18,7 @@ inline std::optional<Device>& device_of_tests() {
 }
 
 /// VOROCL_DEVICE, else the library's choice. The program's own argument can say in which shape the exact
-/// engine works: `test_cells -- group`, or vector.
+/// engine works: `test_volumes -- group`, or vector.
 inline Device select_test_device() {
   const Device device = Device::select();
   const auto& program = boost::unit_test::framework::master_test_suite();

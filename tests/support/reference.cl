@@ -13,7 +13,7 @@ kernel void label_by_all_seeds(global const uint* restrict positions, uint count
   for (uint id = 0; id < count; ++id) {
     const uint seed = positions[id];
     if (seed & EMPTY_BIT) continue;
-    const int along_x = shorter_way_x(packed_x(seed) - x, width), along_y = shorter_way_y(packed_y(seed) - y, height);
+    const int along_x = shorter_way_x(x_of(seed) - x, width), along_y = shorter_way_y(y_of(seed) - y, height);
     const uint distance = distance_of_offset(along_x, along_y);
     if (WINS(seed, distance, nearest, least)) {
       label = id;

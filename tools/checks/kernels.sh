@@ -59,11 +59,11 @@ builds_of() { # KERNEL
     for axes in -DVOROCL_PERIODIC_X -DVOROCL_PERIODIC_Y '-DVOROCL_PERIODIC_X -DVOROCL_PERIODIC_Y'; do
       echo "$width -DVOROCL_EUCLIDEAN -DVOROCL_NEIGHBOURS=9 $axes"
     done
-    if [[ $kernel == kernels/volumes/* ]]; then
+    if [[ $kernel == kernels/volumes/* || $kernel == kernels/core/seeds.cl ]]; then
       for axes in -DVOROCL_PERIODIC_Z '-DVOROCL_PERIODIC_X -DVOROCL_PERIODIC_Y -DVOROCL_PERIODIC_Z'; do
-        echo "$width -DVOROCL_EUCLIDEAN -DVOROCL_NEIGHBOURS=9 $axes"
+        echo "$width -DVOROCL_EUCLIDEAN -DVOROCL_NEIGHBOURS=9 -DVOROCL_DIMENSIONS=3 $axes"
       done
-      echo "$width -DVOROCL_EUCLIDEAN -DVOROCL_NEIGHBOURS=9 -DVOROCL_SPACING_X=2 -DVOROCL_SPACING_Y=1 -DVOROCL_SPACING_Z=4"
+      echo "$width -DVOROCL_EUCLIDEAN -DVOROCL_NEIGHBOURS=9 -DVOROCL_DIMENSIONS=3 -DVOROCL_SPACING_X=2 -DVOROCL_SPACING_Y=1 -DVOROCL_SPACING_Z=4"
     fi
     if [[ $kernel == kernels/measures/* ]]; then  # of windows that show a whole period, where seeds may lie outside
       for axes in -DVOROCL_PERIODIC_X '-DVOROCL_PERIODIC_X -DVOROCL_PERIODIC_Y -DVOROCL_FRACTIONS'; do

@@ -7,7 +7,8 @@ kernels: the tests of BUILD read them from a copy of the folder (VOROCL_KERNEL_D
 that they pass runs under Oclgrind, too. host: each mutant is built in a copy of the project.
 
 A mutant is killed by a test that fails or takes more than LIMIT seconds, or by the compiler; or it survives. Prints a
-line for each, as of a CSV file. BUILD, by default build, is one whose tests pass.
+line for each, as of a CSV file. BUILD, by default build, is one whose tests pass, with -DCMAKE_UNITY_BUILD=OFF: each
+test is a program then.
 """
 import argparse
 import csv
@@ -134,6 +135,9 @@ def main():
         folder, build = Path(work), options.build.resolve()
         os.environ.setdefault("POCL_CACHE_DIR", f"{work}/cache")
         of_kernels = options.what == "kernels"
+        programs = {f"tests/{folder}/test_{stem}" for _, folder, stems in TESTS for stem in stems.split()}
+        if of_kernels and not all((build / program).exists() for program in programs):
+            parser.error(f"{build} has no program for each test: configure it with -DCMAKE_UNITY_BUILD=OFF")
         # Sizes of lists are knobs, which change no result.
         files = [name for name in listed if tests_of(name) and name.startswith("kernels/") == of_kernels and "sizes" not in name]
         if of_kernels:

@@ -104,8 +104,8 @@ void add_method_options(Command& command, MethodOptions& options, Globe globe) {
 void check_volume_method(const Method& method, Metric metric) {
   if (method.exact && metric != Metric::euclidean) {
     throw UsageError(
-        "exact diagrams of volumes are Euclidean; of methods that make volumes jump flooding takes --metric "
-        "manhattan");
+        "exact diagrams of volumes and of spaced planes are Euclidean; of methods that make these jump "
+        "flooding takes --metric manhattan");
   }
   if (method.volumes) return;
   std::string names;
