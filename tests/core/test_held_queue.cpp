@@ -33,6 +33,7 @@ cl::Buffer points_of(const Grid& grid, std::size_t count) {
     };
     numbers.push_back(along(grid.x(), 613));
     numbers.push_back(along(grid.y(), 389));
+    if (grid.z().pixels() > 1) numbers.push_back(along(grid.z(), 211));
   }
   return cl::Buffer(test_device().queue(), numbers.begin(), numbers.end(), true);
 }
@@ -105,4 +106,33 @@ BOOST_AUTO_TEST_CASE(methods_and_measures_enqueue) {
   AllMeasures measures;
   measures.take(diagram, exact);  // makes their buffers
   expect_no_wait([&] { measures.take(diagram, exact); });
+}
+
+BOOST_AUTO_TEST_CASE(volumes_and_spaced_planes_enqueue) {
+  constexpr std::size_t count = 200;
+  std::vector<std::uint8_t> all_but_some(count, 1);
+  for (std::size_t i = 0; i < count; i += 7) all_but_some[i] = 0;
+  const cl::Buffer marks(test_device().queue(), all_but_some.begin(), all_but_some.end(), true);
+  const Axis x(24, -1, 9), y(20, 0, 5), z(16, 2, 3);
+  for (const Grid& grid : {Grid(x.periodic(), y.periodic(), z.periodic()), Grid(x.spaced(3), y)}) {
+    const bool is_volume = grid.z().pixels() > 1;
+    const PointFormat floats = is_volume ? PointFormat::floats_xyz : PointFormat::floats_xy,
+                      doubles = is_volume ? PointFormat::doubles_xyz : PointFormat::doubles_xy;
+    Diagram exact(test_device(), grid), flooded(test_device(), grid);
+    std::optional<Seeds> seeds;
+    for (const Snap snap : {Snap::to_pixels, Snap::none}) {
+      for (const PointBuffer& buffer : {PointBuffer(points_of<float>(grid, count), count, floats, marks),
+                                        PointBuffer(points_of<double>(grid, count), count, doubles)}) {
+        for (const Outside outside : {Outside::refuse, Outside::absent}) {
+          expect_no_wait([&] { seeds.emplace(test_device(), grid, buffer, SeedsOptions{outside, snap}); });
+          expect_no_wait([&] { seeds->move_to(buffer); });
+          expect_no_wait([&] { exact_diagram(*seeds, exact); });
+          expect_no_wait([&] { jump_flooding(*seeds, flooded); });
+        }
+      }
+    }
+    AllMeasures measures;
+    measures.take(flooded, exact);  // makes their buffers
+    expect_no_wait([&] { measures.take(flooded, exact); });
+  }
 }

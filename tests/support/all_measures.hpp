@@ -28,15 +28,17 @@ class Numbers {
   std::vector<double> all_;
 };
 
-/// Every measure that enqueues and returns, of a diagram and of how it stands to an exact one.
+/// Every measure that enqueues and returns, of a diagram and of how it stands to an exact one. Only planes
+/// without an axis that is spaced have vertices.
 class AllMeasures {
  public:
   void take(const Diagram& diagram, const Diagram& exact) {
+    const Grid& grid = diagram.window().grid();
     cell_sums(diagram, sums_);
     cell_shapes(diagram, shapes_);
     cell_statistics(diagram, statistics_);
     adjacency(diagram, adjacency_);
-    vertices(diagram, vertices_);
+    if (grid.z().pixels() == 1 && grid.x().spacing() * grid.y().spacing() == 1) vertices(diagram, vertices_);
     distance_field(diagram, squares_);
     distance_field(diagram, distances_);
     border_mask(diagram, mask_);
