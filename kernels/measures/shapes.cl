@@ -148,7 +148,7 @@ kernel void add_shapes(global const uint* restrict labels, SEED_PARAMETERS, int4
         atomic_max((global int*)(farthest + label), max(distance, of_last));
 #else
         const int end = of_last > distance ? last : first;
-        add_farthest(farthest + label, pack(end, y, z), max(distance, of_last), seed, window);
+        add_farthest(farthest + label, packed((int3)(end, y, z)), max(distance, of_last), seed, window);
 #endif
 #else
         const bool ends_y = way.y < 0 ? !above : !below;

@@ -71,6 +71,7 @@ builds_of() { # KERNEL
       done
       for axes in '' '-DVOROCL_PERIODIC_X -DVOROCL_PERIODIC_Z -DVOROCL_SPACING_X=2 -DVOROCL_SPACING_Y=1 -DVOROCL_SPACING_Z=4'; do
         echo "$width -DVOROCL_MANHATTAN -DVOROCL_NEIGHBOURS=9 -DVOROCL_DIMENSIONS=3 $axes"
+        echo "$width -DVOROCL_EUCLIDEAN -DVOROCL_NEIGHBOURS=9 -DVOROCL_DIMENSIONS=3 -DVOROCL_FAR -DVOROCL_FRACTIONS $axes"
       done
     fi
     if [[ $kernel == kernels/exact/* ]]; then  # the tests' own lists, nearly every one of which overflows
