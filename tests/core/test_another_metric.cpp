@@ -26,13 +26,15 @@ const std::string greater_one =
 
 /// From now on kernels are built with the Chebyshev metric in the place of the Manhattan one.
 void replace_manhattan_by_chebyshev(const TemporaryFolder& folder) {
-  for (const char* const room : {"core", "flooding"}) std::filesystem::create_directory(folder / room);
+  for (const char* const room : {"core", "flooding", "volumes"})
+    std::filesystem::create_directory(folder / room);
   for (const auto& [name, text] : kernel_sources()) {
     std::string kernel = text;
     const auto at = kernel.find(sum_of_both_axes);
     if (at != std::string::npos) kernel.replace(at, sum_of_both_axes.size(), greater_one);
     BOOST_TEST((at != std::string::npos) == (name == "core/position.cl"), name);
-    if (name.rfind("core/", 0) == 0 || name.rfind("flooding/", 0) == 0) folder.file(name, kernel);
+    const bool is_used = std::filesystem::exists(folder / name.substr(0, name.find('/')));
+    if (is_used) folder.file(name, kernel);
   }
   setenv("VOROCL_KERNEL_DIR", std::string(folder / "").c_str(), 1);
 }
