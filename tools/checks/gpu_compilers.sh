@@ -40,7 +40,7 @@ kernel_files() {
   echo kernels/exact/group/diagram.cl
   echo kernels/exact/far.cl
   echo kernels/masks/group/transform.cl
-  printf 'kernels/volumes/%s.cl\n' jump_flooding seeds
+  echo kernels/volumes/jump_flooding.cl
 }
 
 work=$(mktemp -d)
@@ -69,7 +69,7 @@ more_options() { # FILE METRIC
     echo '-DVOROCL_DIMENSIONS=3 -DVOROCL_FRACTIONS -DVOROCL_SPACING_X=2 -DVOROCL_SPACING_Y=1 -DVOROCL_SPACING_Z=4'
   fi
   if [[ $1 == kernels/masks/* ]]; then echo -DVOROCL_FAR; fi
-  if [[ $1 == kernels/measures/* ]]; then echo '-DVOROCL_DIMENSIONS=3 -DVOROCL_PERIODIC_X -DVOROCL_PERIODIC_Y -DVOROCL_PERIODIC_Z'; fi
+  if [[ $1 == kernels/measures/* || $1 == kernels/core/seeds.cl ]]; then echo '-DVOROCL_DIMENSIONS=3 -DVOROCL_PERIODIC_X -DVOROCL_PERIODIC_Y -DVOROCL_PERIODIC_Z'; fi
   if [[ $1 == kernels/volumes/* ]]; then echo '-DVOROCL_PERIODIC_X -DVOROCL_PERIODIC_Y -DVOROCL_PERIODIC_Z'; fi
 }
 
