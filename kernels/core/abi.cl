@@ -11,3 +11,16 @@
 #else
 #define PREFETCH(address) prefetch(address, 1)
 #endif
+
+// Stores a vector past the caches, if the compiler can: a line of them need not be read before it is written. For whole
+// lines of images of so many pixels that no cache is taken to hold them.
+#ifdef __has_builtin
+#if __has_builtin(__builtin_nontemporal_store)
+#define STREAM(vector, pointer) __builtin_nontemporal_store(vector, pointer)
+#endif
+#endif
+#ifndef STREAM
+#define STREAM(vector, pointer) (*(pointer) = (vector))
+#endif
+#define BYTES_OF_LINE 64
+#define IS_STREAMED(pixels) ((pixels) > (1 << 22))

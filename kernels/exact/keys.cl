@@ -134,10 +134,19 @@ static inline void show_eight(const scene_t* scene, bool is_inside, int x, int y
 static inline bool is_inside(const scene_t* scene, box_t b) {
   return has_label(scene, b.x, b.y, b.z) && has_label(scene, b.x + b.sx - 1, b.y + b.sy - 1, b.z + b.sz - 1);
 }
+static inline bool has_lines(const scene_t* scene, box_t b) {
+  return b.sx % 16 == 0 && scene->size.x % 16 == 0 && (size_t)scene->labels % BYTES_OF_LINE == 0 &&
+         IS_STREAMED(index_of(scene, 0, 0, scene->size.z));
+}
 NOINLINE static void show_one(const scene_t* scene, box_t b, uint label) {
-  const bool inside = is_inside(scene, b);
+  const bool inside = is_inside(scene, b), streams = inside && has_lines(scene, b);
   for (int z = b.z; z < min(b.z + b.sz, scene->size.z); ++z) {
     for (int y = b.y; y < min(b.y + b.sy, scene->size.y); ++y) {
+      if (streams) {
+        global uint16* const lines = (global uint16*)(scene->labels + index_of(scene, b.x, y, z));
+        for (int i = 0; i < b.sx / 16; ++i) STREAM((uint16)label, lines + i);
+        continue;
+      }
       for (int x = b.x; x < b.x + b.sx; x += 8) show_eight(scene, inside, x, y, z, (uint8)label);
     }
   }

@@ -9,6 +9,8 @@
 #define INLINE __attribute__((always_inline)) static inline
 #define NO_MARK 0xffffffffu
 
+INLINE size_t pixels_of(const images_t* e) { return (size_t)e->width * (size_t)e->height * (size_t)e->depth; }
+
 #ifdef VOROCL_ONE_LANE
 #define LANES 1
 #define IN_LANES(name) name
@@ -16,6 +18,7 @@
 #define LOAD_ALL(p) (*(p))
 #define STORE_ALL(values, p) (*(p) = (values))
 #define STORE_LANES(type, values, out, lanes) ((void)(lanes), *(out) = (values))
+#define STREAM_LANES(images, type, values, out, lanes) STORE_LANES(type, values, out, lanes)
 #else
 #define LANES STRIP
 #define JOIN_16(name) name##16
@@ -36,6 +39,16 @@ __attribute__((noinline)) static void store_some(const uchar* values, global uch
       vstore16(vector, 0, lane_values);                                                          \
       store_some((const uchar*)lane_values, (global uchar*)(out), (lanes) * (int)sizeof(type)); \
     }                                                                                            \
+  } while (0)
+// The same in one of `images`, which no kernel reads soon.
+#define STREAM_LANES(images, type, vector, out, lanes)                                                     \
+  do {                                                                                                     \
+    const bool has_lines = sizeof(type##16) % BYTES_OF_LINE == 0 && (size_t)(out) % sizeof(type##16) == 0; \
+    if ((lanes) == STRIP && has_lines && IS_STREAMED(pixels_of(images))) {                                 \
+      STREAM(vector, (global type##16*)(out));                                                             \
+    } else {                                                                                               \
+      STORE_LANES(type, vector, out, lanes);                                                               \
+    }                                                                                                      \
   } while (0)
 #endif
 

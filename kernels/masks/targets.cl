@@ -58,7 +58,7 @@ INLINE void store_distances(const nearest_t* n, const images_t* e, const targets
   const ints none = n->none;
   if (e->wanted & WANTS_SQUARES) {
     const uints values = select(TO_UINTS(n->square), (uints)NO_MARK, none);
-    STORE_LANES(uint, values, (global uint*)t->distances + n->at, n->lanes);
+    STREAM_LANES(e, uint, values, (global uint*)t->distances + n->at, n->lanes);
     return;
   }
 #ifdef cl_khr_fp64
@@ -66,9 +66,9 @@ INLINE void store_distances(const nearest_t* n, const images_t* e, const targets
     doubles length = e->is_unit ? sqrt(TO_DOUBLES(n->square)) : lengths_of(n, e);
     length = select(length, (doubles)INFINITY, TO_LONGS(none));
     if (e->wanted & WANTS_DOUBLES) {
-      STORE_LANES(double, length, (global double*)t->distances + n->at, n->lanes);
+      STREAM_LANES(e, double, length, (global double*)t->distances + n->at, n->lanes);
     } else {
-      STORE_LANES(float, TO_FLOATS(length), (global float*)t->distances + n->at, n->lanes);
+      STREAM_LANES(e, float, TO_FLOATS(length), (global float*)t->distances + n->at, n->lanes);
     }
     return;
   }
@@ -83,22 +83,22 @@ INLINE void store_distances(const nearest_t* n, const images_t* e, const targets
     const floats along_z = TO_FLOATS(z) * e->float_z;
     length = sqrt(along_x * along_x + along_y * along_y + along_z * along_z);
   }
-  STORE_LANES(float, select(length, (floats)INFINITY, none), (global float*)t->distances + n->at, n->lanes);
+  STREAM_LANES(e, float, select(length, (floats)INFINITY, none), (global float*)t->distances + n->at, n->lanes);
 }
 
 // Unrolled, for loads that a compiler gathers into vectors take many times as long.
-#define COPY_VALUES(type, mask)                                                                                   \
-  do {                                                                                                            \
-    type value[LANES];                                                                                            \
-    _Pragma("unroll") for (int i = 0; i < LANES; ++i) value[i] = ((global const type*)t->image)[place[i]];        \
+#define COPY_VALUES(type, mask)                                                                                        \
+  do {                                                                                                                 \
+    type value[LANES];                                                                                                 \
+    _Pragma("unroll") for (int i = 0; i < LANES; ++i) value[i] = ((global const type*)t->image)[place[i]];             \
     const IN_LANES(type) values = select(LOAD_ALL(value), (IN_LANES(type))(type)0, IN_LANES(convert_##mask)(n->none)); \
-    STORE_LANES(type, values, (global type*)t->values + n->at, n->lanes);                                         \
+    STREAM_LANES(e, type, values, (global type*)t->values + n->at, n->lanes);                                          \
   } while (0)
 
 INLINE void store_places(const nearest_t* n, const images_t* e, const targets_t* t) {
   const uints places = AS_UINTS((n->slice * e->height + n->row) * e->width + n->column);
   if (e->wanted & WANTS_PLACES) {
-    STORE_LANES(uint, select(places, (uints)NO_MARK, n->none), t->places + n->at, n->lanes);
+    STREAM_LANES(e, uint, select(places, (uints)NO_MARK, n->none), t->places + n->at, n->lanes);
   }
   if (e->wanted & WANTS_RANKS) {
     const ints words = (n->slice * e->height + n->row) * (SHORTS_OF_ROW(e->width) / 4) + (n->column >> 6);
@@ -107,7 +107,7 @@ INLINE void store_places(const nearest_t* n, const images_t* e, const targets_t*
     STORE_ALL(AS_UINTS(n->column & 63), bit);
 #pragma unroll
     for (int i = 0; i < LANES; ++i) rank[i] = rank_of((global const ulong*)t->marks, t->starts, word[i], bit[i]);
-    STORE_LANES(uint, select(LOAD_ALL(rank), (uints)NO_MARK, n->none), t->ranks + n->at, n->lanes);
+    STREAM_LANES(e, uint, select(LOAD_ALL(rank), (uints)NO_MARK, n->none), t->ranks + n->at, n->lanes);
   }
   if (e->wanted & WANTS_VALUES) {
     uint place[LANES];
@@ -122,15 +122,15 @@ INLINE void store_places(const nearest_t* n, const images_t* e, const targets_t*
 }
 
 INLINE void store_indices(const nearest_t* n, const images_t* e, const targets_t* t) {
-  const size_t pixels = (size_t)e->width * (size_t)e->height * (size_t)e->depth;
+  const size_t pixels = pixels_of(e);
   global uint* out = t->indices + n->at;
   if (e->is_volume) {
-    STORE_LANES(uint, select(AS_UINTS(n->slice), (uints)NO_MARK, n->none), out, n->lanes);
+    STREAM_LANES(e, uint, select(AS_UINTS(n->slice), (uints)NO_MARK, n->none), out, n->lanes);
     out += pixels;
   }
-  STORE_LANES(uint, select(AS_UINTS(n->row), (uints)NO_MARK, n->none), out, n->lanes);
+  STREAM_LANES(e, uint, select(AS_UINTS(n->row), (uints)NO_MARK, n->none), out, n->lanes);
   out += pixels;
-  STORE_LANES(uint, select(AS_UINTS(n->column), (uints)NO_MARK, n->none), out, n->lanes);
+  STREAM_LANES(e, uint, select(AS_UINTS(n->column), (uints)NO_MARK, n->none), out, n->lanes);
 }
 
 INLINE size_t index_of_pixel(int x, int y, int z, const images_t* e) {
@@ -138,7 +138,7 @@ INLINE size_t index_of_pixel(int x, int y, int z, const images_t* e) {
 }
 
 INLINE void store_labels(ints labels, int x, int y, int z, int lanes, const images_t* e, const targets_t* t) {
-  STORE_LANES(uint, AS_UINTS(labels), t->labels + index_of_pixel(x, y, z, e), lanes);
+  STREAM_LANES(e, uint, AS_UINTS(labels), t->labels + index_of_pixel(x, y, z, e), lanes);
 }
 
 INLINE void store_nearest(nearest_t* n, const images_t* e, const targets_t* t) {

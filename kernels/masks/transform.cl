@@ -107,11 +107,11 @@ INLINE int16 columns_of(int16 row, int y, global const ushort* columns) {
 }
 
 // Values of pixels of a row, of each pixel or of every second one.
-INLINE void store_lanes(uint16 values, global uint* image, size_t at, int step, int lanes) {
+INLINE void store_lanes(uint16 values, global uint* image, size_t at, int step, int lanes, const images_t* e) {
   if (step == 1) {
-    STORE_LANES(uint, values, image + at, lanes);
+    STREAM_LANES(e, uint, values, image + at, lanes);
   } else {
-    STORE_LANES(ulong, convert_ulong16(values), (global ulong*)image + at, lanes);
+    STREAM_LANES(e, ulong, convert_ulong16(values), (global ulong*)image + at, lanes);
   }
 }
 INLINE uint16 load_lanes(global const uint* image, size_t at, int step, int lanes) {
@@ -232,7 +232,7 @@ ITEM_KERNEL void nearest_in_slices(global const images_t* images, MEMORY_PARAMET
         const bool has_places = e.carried == CARRIES_PLACES;
         uint16 known = convert_uint16(square_of(best, l.bits));
         if (has_places) known = as_uint16(row << 16 | columns_of(row, y, found));
-        store_lanes(known, between, at, step, lanes);
+        store_lanes(known, between, at, step, lanes, &e);
         if (has_labels) STORE_LANES(uint, as_uint16(l.found[y]), labels + at, lanes);
       }
     }

@@ -230,12 +230,21 @@ def row_of(fields: Dict[Any, str]) -> np.dtype[Any]:
     return np.dtype([(name, kind) for kind, names in fields.items() for name in names.split()], align=True)
 
 
+def new_array(shape: Tuple[int, ...], dtype: Any) -> NDArray[Any]:
+    """An array of any values that begins where lines of a cache do, so that kernels write whole ones."""
+    lines = 128
+    size = math.prod(shape) * np.dtype(dtype).itemsize
+    memory = np.empty(size + lines, np.uint8)
+    first = -memory.ctypes.data % lines
+    return memory[first : first + size].view(dtype).reshape(shape)
+
+
 def output(
     out: Optional[NDArray[Any]], shape: Tuple[int, ...], dtype: Any, name: str = "out", copied: bool = False
 ) -> NDArray[Any]:
     """The caller's array, or a new one; that too for one that cannot be written to in place, if it is `copied`."""
     if out is None:
-        return np.empty(shape, dtype)
+        return new_array(shape, dtype)
     wanted = np.dtype(dtype)
     if not isinstance(out, np.ndarray):
         raise BadArgument(f"{name} must be an array of NumPy; this is of type {type(out).__name__}")
@@ -249,4 +258,4 @@ def output(
         return out
     if not copied:
         raise BadArgument(f"{name} must be C-contiguous and aligned; this array is not")
-    return np.empty(shape, dtype)
+    return new_array(shape, dtype)

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <functional>
+#include <new>
 #include <random>
 
 #include "brute_force.hpp"
@@ -67,6 +68,22 @@ std::ostream& operator<<(std::ostream& out, const Shape3& shape) {
   return out;
 }
 
+/// Memory that begins with a line of a cache.
+template <typename T>
+struct Lines {
+  using value_type = T;
+  Lines() = default;
+  template <typename Other>
+  Lines(const Lines<Other>&) {}
+  T* allocate(std::size_t count) { return static_cast<T*>(operator new(count * sizeof(T), line)); }
+  void deallocate(T* memory, std::size_t) { operator delete(memory, line); }
+  friend bool operator==(const Lines&, const Lines&) { return true; }
+  friend bool operator!=(const Lines&, const Lines&) { return false; }
+
+ private:
+  static constexpr std::align_val_t line{128};
+};
+
 /// All that a transform writes.
 struct Results {
   explicit Results(std::size_t pixels, std::size_t axes)
@@ -77,9 +94,9 @@ struct Results {
         ranks(pixels),
         values(pixels) {}
 
-  std::vector<double> doubles;
-  std::vector<float> floats;
-  std::vector<std::uint32_t> indices, places, ranks;
+  std::vector<double, Lines<double>> doubles;
+  std::vector<float, Lines<float>> floats;
+  std::vector<std::uint32_t, Lines<std::uint32_t>> indices, places, ranks;
   Bytes values;
 };
 
@@ -296,6 +313,16 @@ BOOST_AUTO_TEST_CASE(long_axes_have_distances_of_any_length) {
   BOOST_TEST(got.ranks[70000] == 0u);
 }
 
+// Results of more than 2^22 pixels go past the caches, line by line, where rows are whole lines.
+BOOST_AUTO_TEST_CASE(images_are_larger_than_caches) {
+  for (const Sides& sides : {Sides{2064, 2050, 1}, Sides{2050, 2064, 1}, Sides{272, 130, 121}}) {
+    const Shape3 shape = {sides};
+    Bytes image(shape.pixels(), 1);
+    for (const std::size_t mark : {image.size() / 3, image.size() / 2 + 777}) image[mark] = 0;
+    check_against_brute_force(shape, image);
+  }
+}
+
 BOOST_AUTO_TEST_CASE(groups_have_any_number_of_items) {
   for (const std::size_t items : {32, 64, 128, 256}) {
     check_all_images({{37, 150, 1}, {true, items > 64, false}, {3, 2, 1}}, 7, in_groups_of(items));
@@ -393,7 +420,7 @@ void check_type(PixelType type, T zero, T other) {
   const Results expected = run(shape, bytes);
   std::vector<T> image(bytes.size()), values(bytes.size());
   for (std::size_t i = 0; i < bytes.size(); ++i) image[i] = bytes[i] == 0 ? zero : other;
-  std::vector<std::uint32_t> places(bytes.size());
+  std::vector<std::uint32_t, Lines<std::uint32_t>> places(bytes.size());
   TransformTargets targets;
   targets.places = {places.data(), PixelType::uint32};
   targets.values = {values.data(), type};

@@ -146,10 +146,11 @@ BOOST_AUTO_TEST_CASE(large_diagrams_against_a_tree) {
   check_against_tree({40, 32000, Axes::xy}, {{39, 31999}});
   check_against_tree({32000, 64, Axes::x}, random_pixels({32000, 64}, 30, 26));
   check_against_tree({40, 31999, Axes::xy}, random_pixels({40, 31999}, 900, 27), Metric::manhattan);
-  // Regions that have one list, and ways longer than 4,096 pixels.
+  // Regions that have one list, ways longer than 4,096 pixels, and labels that go past the caches line by
+  // line.
   for (const Metric metric : both_metrics) {
-    check_against_tree({9000, 600}, random_pixels({9000, 600}, 30, 29), metric, true);
-    check_against_tree({9000, 600}, random_pixels({500, 600}, 400, 30), metric);
+    check_against_tree({9008, 600}, random_pixels({9008, 600}, 30, 29), metric, true);
+    check_against_tree({9008, 600}, random_pixels({500, 600}, 400, 30), metric);
   }
   // Boxes in the middle have so many candidates, 36 of each 8 x 8, and so far away, that keys are relative to
   // one of them: 5,793 squared and the six bits of a rank reach 2^31.
