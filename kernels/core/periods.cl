@@ -1,6 +1,6 @@
 // How many dimensions there are: the build option VOROCL_DIMENSIONS, 3 in volumes. And which axes are periodic: the
 // build options VOROCL_PERIODIC_X, VOROCL_PERIODIC_Y and, in volumes, VOROCL_PERIODIC_Z. Their period is the grid's
-// side, and distances go the shorter way round.
+// side, and distances go the shorter way round. Kernels that are told which axes they are have VOROCL_PERIODIC alone.
 
 #ifndef VOROCL_PERIODS
 #define VOROCL_PERIODS
@@ -10,7 +10,7 @@
 #endif
 
 #if defined(VOROCL_PERIODIC_X) || defined(VOROCL_PERIODIC_Y) || defined(VOROCL_PERIODIC_Z)
-#define VOROCL_PERIODIC
+#define VOROCL_PERIODIC 1
 #endif
 #ifdef VOROCL_PERIODIC_X
 #define PERIODIC_X 1

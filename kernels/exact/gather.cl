@@ -10,10 +10,11 @@ static inline float to_nearest_image(int way, int size, int spacing, int periodi
   return (float)shorter_way(way, size * ONE * spacing, periodic);
 }
 static inline float4 way_to(const scene_t* scene, uint at, int4 centre) {
-  const float x = to_nearest_image(scene->x[at] - centre.x, scene->size.x, SPACING_X, PERIODIC_X);
-  const float y = to_nearest_image(scene->y[at] - centre.y, scene->size.y, SPACING_Y, PERIODIC_Y);
+  const float x = to_nearest_image(scene->x[at] - centre.x, scene->size.x, SPACING_X, IS_PERIODIC(scene, x));
+  const float y = to_nearest_image(scene->y[at] - centre.y, scene->size.y, SPACING_Y, IS_PERIODIC(scene, y));
   const float z =
-      IS_VOLUME ? to_nearest_image(scene->z[at] - centre.z, scene->size.z, SPACING_Z, PERIODIC_Z) : 0;
+      IS_VOLUME ? to_nearest_image(scene->z[at] - centre.z, scene->size.z, SPACING_Z, IS_PERIODIC(scene, z))
+                : 0;
   return (float4)(x, y, z, IS_WEIGHTED ? (float)scene->lags[at] * LAG_UNIT : 0);
 }
 
@@ -184,13 +185,14 @@ NOINLINE static uint nearest_at(const scene_t* scene, box_t b, const list_t* lis
 
 // Whether a place is nearer to a pixel than another one.
 static inline long distance_to(const scene_t* scene, int4 centre, uint at) {
-  const long x = shorter_way(scene->x[at] - centre.x, scene->size.x * ONE * SPACING_X, PERIODIC_X);
-  const long y = shorter_way(scene->y[at] - centre.y, scene->size.y * ONE * SPACING_Y, PERIODIC_Y);
+  const long x = shorter_way(scene->x[at] - centre.x, scene->size.x * ONE * SPACING_X, IS_PERIODIC(scene, x));
+  const long y = shorter_way(scene->y[at] - centre.y, scene->size.y * ONE * SPACING_Y, IS_PERIODIC(scene, y));
 #if IS_MANHATTAN
   return (x < 0 ? -x : x) + (y < 0 ? -y : y);
 #else
   const long z =
-      IS_VOLUME ? shorter_way(scene->z[at] - centre.z, scene->size.z * ONE * SPACING_Z, PERIODIC_Z) : 0;
+      IS_VOLUME ? shorter_way(scene->z[at] - centre.z, scene->size.z * ONE * SPACING_Z, IS_PERIODIC(scene, z))
+                : 0;
   return x * x + y * y + z * z + (IS_WEIGHTED ? (long)scene->lags[at] * LAG_UNIT : 0);
 #endif
 }

@@ -42,7 +42,8 @@ typedef struct {
 
 typedef struct {
   bins_t bins;
-  int4 size;  // the period along periodic axes
+  int4 size;      // the period along periodic axes
+  int4 periodic;  // along which axes the grid is
   global const uint* starts;
   global const int *x, *y, *z;
   global const uint* ids;
@@ -53,6 +54,15 @@ typedef struct {
   int4 first, last;     // the pixels that get labels; others of the grid get none
   global uint* labels;  // written
 } scene_t;
+
+// Programs of periodic grids are told along which axes these are so, by a bit each of size.w. (In the group shape they
+// are built for these axes: being told takes registers.)
+#define AXES_OF(size) ((int4)((size).w) >> (int4)(0, 1, 2, 3) & 1)
+#ifdef VOROCL_PERIODIC
+#define IS_PERIODIC(scene, axis) ((scene)->periodic.axis != 0)
+#else
+#define IS_PERIODIC(scene, axis) 0
+#endif
 
 static inline bool has_label(const scene_t* s, int x, int y, int z) {
   return x >= s->first.x && y >= s->first.y && z >= s->first.z && x <= s->last.x && y <= s->last.y &&
@@ -68,12 +78,8 @@ static inline int own_y(const scene_t* s, uint at) {
 }
 // Whether that may be another one than where the place is.
 static inline bool has_images_of(const scene_t* s) {
-#ifdef VOROCL_PERIODIC
-  (void)s;
-  return true;
-#else
-  return IS_VOLUME ? false : s->order != 0;
-#endif
+  const bool is_periodic = IS_PERIODIC(s, x) || IS_PERIODIC(s, y) || IS_PERIODIC(s, z);
+  return IS_VOLUME ? is_periodic : is_periodic || s->order != 0;
 }
 static inline bool comes_first(const scene_t* s, uint a, uint b) {
   if (IS_VOLUME && s->z[a] != s->z[b]) return s->z[a] < s->z[b];

@@ -179,31 +179,40 @@ NOINLINE static bool label_alone(const scene_t* scene, box_t b, level_t level, l
   return true;
 }
 
-// The places in the bins of a box.
-static inline uint places_around(const scene_t* scene, box_t b, uint* pixels) {
+// What lies in the bins of a box: so many places, their mean lag in squared pixels if it is wanted, and the bins'
+// pixels.
+typedef struct {
+  uint places, pixels;
+  float lag;
+} around_t;
+static inline around_t around(const scene_t* scene, box_t b, const bool wants_lag) {
   const bins_t* const bins = &scene->bins;
   const int x0 = b.x >> bins->bits.x, x1 = min(b.x + b.sx - 1, scene->size.x - 1) >> bins->bits.x;
   const int y0 = b.y >> bins->bits.y, y1 = min(b.y + b.sy - 1, scene->size.y - 1) >> bins->bits.y;
   const int z0 = b.z >> bins->bits.z, z1 = min(b.z + b.sz - 1, scene->size.z - 1) >> bins->bits.z;
-  uint count = 0;
+  around_t found = {0, 0, 0};
+  float8 lags = 0;
   for (int z = z0; z <= z1; ++z) {
     for (int y = y0; y <= y1; ++y) {
       const uint first = (uint)((z * bins->rows + y) * (bins->columns + 1));
-      count += scene->starts[first + (uint)x1 + 1] - scene->starts[first + (uint)x0];
+      const uint from = scene->starts[first + (uint)x0], to = scene->starts[first + (uint)x1 + 1];
+      found.places += to - from;
+      for (uint at = from; wants_lag && at < to; at += 8)
+        lags += select((float8)0, convert_float8(vload8(0, scene->lags + at)), EIGHT < (int)(to - at));
     }
   }
-  *pixels = (uint)((x1 + 1 - x0) * (y1 + 1 - y0) * (z1 + 1 - z0))
-            << (bins->bits.x + bins->bits.y + bins->bits.z);
-  return count;
+  const float4 sums = lags.lo + lags.hi;
+  found.lag = (sums.x + sums.y + sums.z + sums.w) / (float)((ulong)max(found.places, 1u) << LAG_BITS);
+  found.pixels = (uint)((x1 + 1 - x0) * (y1 + 1 - y0) * (z1 + 1 - z0))
+                 << (bins->bits.x + bins->bits.y + bins->bits.z);
+  return found;
 }
 
 NOINLINE static void label_by_lists(const scene_t* scene, box_t outer, lists_t* lists) {
   for (int i = 0; i < children_of(outer, TILE, TILE, TILE_Z); ++i) {
     const box_t tile = child_of(outer, i, TILE, TILE, TILE_Z);
     if (!is_in_grid(scene, tile)) continue;
-    uint pixels;
-    if (places_around(scene, tile, &pixels) < FEW_OF_TILE && label_alone(scene, tile, A_TILE, lists))
-      continue;
+    if (around(scene, tile, false).places < FEW_OF_TILE && label_alone(scene, tile, A_TILE, lists)) continue;
     for (int j = 0; j < children_of(tile, BOX_X, BOX_Y, BOX_Z); ++j) {
       const box_t box = child_of(tile, j, BOX_X, BOX_Y, BOX_Z);
       if (!is_in_grid(scene, box) || label_alone(scene, box, A_BOX, lists)) continue;
@@ -215,32 +224,31 @@ NOINLINE static void label_by_lists(const scene_t* scene, box_t outer, lists_t* 
   }
 }
 
-// The side of stamps for so many pixels per place: few pixels are farther from all places than half of it. 0:
-// none.
+// The side of stamps for places as dense as these: few pixels are so far from all places that half of it is less than
+// the distance and the lag. 0: none.
 #define STAMP_FACTOR 7.f  // times the pixels of a place are those of a ball of that radius
-static inline int stamp_side(uint pixels, uint places) {
+static inline int stamp_side(around_t there) {
   if (IS_SPACED || IS_MANHATTAN) return 0;
-  const float of_ball = (float)pixels / (float)max(places, 1u) * STAMP_FACTOR;
-  const float side = 2 * (IS_VOLUME ? cbrt(of_ball / 4.18879f) : sqrt(of_ball / 3.14159f));
-  return side > MOST_STAMP_SIDE ? 0 : max(3, (int)ceil(side));
+  const float of_ball = (float)there.pixels / (float)max(there.places, 1u) * STAMP_FACTOR;
+  const float radius = IS_VOLUME ? cbrt(of_ball / 4.18879f) : sqrt(of_ball / 3.14159f);
+  const float side = 2 * sqrt(radius * radius + there.lag);
+  return side > MOST_STAMP_SIDE ? 0 : max(3, (int)(IS_WEIGHTED ? round(side) : ceil(side)));
 }
 
 // Labels a box of at most SIDE by stamps; false if places are not dense there, or too many.
 static inline bool label_if_dense(const scene_t* scene, box_t b, stamps_t* stamps) {
-  uint pixels;
-  const uint count = places_around(scene, b, &pixels);
-  const int side = stamp_side(pixels, count);
+  const around_t there = around(scene, b, IS_WEIGHTED);
+  const int side = stamp_side(there);
   if (side == 0) return false;
   for (int i = 0; !IS_VOLUME && i < children_of(b, BOX_X, BOX_Y, 1); ++i) {
-    uint some;
     const box_t box = child_of(b, i, BOX_X, BOX_Y, 1);
     if (!is_in_grid(scene, box)) continue;
-    const uint there = places_around(scene, box, &some);
-    if ((ulong)there * pixels * 4 < (ulong)count * some) return false;
+    const around_t of_box = around(scene, box, false);
+    if ((ulong)of_box.places * there.pixels * 4 < (ulong)there.places * of_box.pixels) return false;
   }
   // The seeds of the bins, and those whose stamps reach into the box.
-  const float around = (float)(b.sx + side) * (float)(b.sy + side) * (IS_VOLUME ? (float)(b.sz + side) : 1.f);
-  if (around * (float)count >= 0.9f * MOST_STAMPS * (float)pixels) return false;
+  const float reached = (float)(b.sx + side) * (float)(b.sy + side) * (IS_VOLUME ? (float)(b.sz + side) : 1.f);
+  if (reached * (float)there.places >= 0.9f * MOST_STAMPS * (float)there.pixels) return false;
   return label_by_stamps(scene, b, side, stamps);
 }
 
@@ -269,15 +277,14 @@ kernel void label_regions(global const uint* restrict starts, global const int* 
                            SIDE, SIDE, IS_VOLUME ? SIDE : 1);
   const bins_t bins = bins_of(bits, size);
   global const int* const of_places = IS_WEIGHTED ? lags + bins.rows * bins.slices : lags;
-  const scene_t scene = {bins, size, starts, xs, ys, zs, ids, of_places,
+  const scene_t scene = {bins, size, AXES_OF(size), starts, xs, ys, zs, ids, of_places,
                          lags, has_images ? order : 0, first, last, labels};
   if (!is_in_grid(&scene, own)) return;
   const box_t region =
       box_at(own.x / REGION * REGION, own.y / REGION * REGION, own.z, REGION, REGION, REGION_Z);
   rooms_t rooms __attribute__((aligned(64)));  // vectors of eight do not cross lines of the cache
-  uint pixels;
-  const uint count = places_around(&scene, region, &pixels);
-  const bool has_few = (ulong)count * (REGION * REGION * REGION_Z) < (ulong)FEW_OF_REGION * pixels;
+  const around_t there = around(&scene, region, false);
+  const bool has_few = (ulong)there.places * (REGION * REGION * REGION_Z) < (ulong)FEW_OF_REGION * there.pixels;
   if (has_few && (IS_VOLUME || (region.x + REGION <= size.x && region.y + REGION <= size.y))) {
     const bool is_first = own.x == region.x && own.y == region.y;
     if (is_first && !label_alone(&scene, region, A_REGION, &rooms.lists)) {

@@ -180,11 +180,6 @@ static inline uint8 parts_of(uint8 lanes, uint from_first, int bits) {
   return ((lanes * lanes << (FRACTION_BITS - 1)) - lanes * from_first) << bits;
 }
 
-INLINE void stamp_row(uint* row, uint8 columns_0, uint8 columns_1, uint more, const int vectors) {
-  store_uints(min(vload8(0, row), columns_0 + more), row);
-  if (vectors == 2) store_uints(min(vload8(1, row), columns_1 + more), row + 8);
-}
-
 // How many rows at either end of slice k are farther than side / 2 from the seed, wherever it is: the first
 // pixels of an axis are at least side / 2 - 1 away, the next ones a pixel less.
 static inline int rows_out(int side, int k) {
@@ -193,8 +188,34 @@ static inline int rows_out(int side, int k) {
   return side < 8 ? 0 : side == 8 ? (at == 0) : at == 0 ? 2 : at == 1 ? 1 : 0;
 }
 
-// `vectors`: of a row.
-INLINE void stamp_all(int count, int bits, const int side, box_t tile, stamps_t* s, const int vectors) {
+// How many rows and slices at either end are so far from the seed that the eight pixels of a row that are nearest to it
+// hold all that are less than side / 2 away.
+static inline int rows_narrow(int side) { return side <= 8 ? side : side == 10 ? 2 : 1; }
+
+typedef struct {
+  uint8 narrow, first, second;  // of the eight nearest pixels, and of the first 16
+} columns_t;
+
+INLINE void stamp_vector(uint* row, uint8 keys) { store_uints(min(vload8(0, row), keys), row); }
+INLINE void stamp_row(uint* row, columns_t columns, uint more, const int side, bool is_narrow) {
+  if (is_narrow) {
+    stamp_vector(row + max(side / 2 - 4, 0), columns.narrow + more);
+  } else {
+    stamp_vector(row, columns.first + more);
+    stamp_vector(row + 8, columns.second + more);
+  }
+}
+
+// All rows of a slice but so many at either end.
+INLINE void stamp_slice(uint* rows, columns_t columns, const uint* of_y, const int side, const int out,
+                        const bool is_narrow) {
+#pragma unroll
+  for (int j = out; j < side - out; ++j) {
+    stamp_row(rows + j * STAMP_ROW, columns, of_y[j], side, is_narrow || min(j, side - 1 - j) < rows_narrow(side));
+  }
+}
+
+INLINE void stamp_all(int count, int bits, const int side, box_t tile, stamps_t* s) {
   const uint8 lane_0 = as_uint8(EIGHT), lane_1 = lane_0 + 8u;
   for (int i = 0; i < count; ++i) {
     const uint ax = (uint)s->x[i], ay = (uint)s->y[i];
@@ -207,44 +228,53 @@ INLINE void stamp_all(int count, int bits, const int side, box_t tile, stamps_t*
     const int z = 0;
 #endif
     const uint all = (s->high[i] << bits) + s->rank[i];
-    const uint8 columns_0 = all + parts_of(lane_0, ax, bits);
-    const uint8 columns_1 = vectors == 2 ? all + parts_of(lane_1, ax, bits) : (uint8)0;
+    const columns_t columns = {all + parts_of(lane_0 + (uint)max(side / 2 - 4, 0), ax, bits),
+                               all + parts_of(lane_0, ax, bits), all + parts_of(lane_1, ax, bits)};
     uint of_y[16], of_z[16];
     store_uints(parts_of(lane_0, ay, bits), of_y);
-    if (vectors == 2) store_uints(parts_of(lane_1, ay, bits), of_y + 8);
     store_uints(parts_of(lane_0, az, bits), of_z);
-    if (vectors == 2) store_uints(parts_of(lane_1, az, bits), of_z + 8);
+    if (side > 8) {
+      store_uints(parts_of(lane_1, ay, bits), of_y + 8);
+      store_uints(parts_of(lane_1, az, bits), of_z + 8);
+    }
     const int first_y = max(-y, 0), last_y = min(side, tile.sy - y);
     const int first_z = max(-z, 0), last_z = min(side, tile.sz - z);
     uint* const image = s->image + s->offset[i];
     for (int k = first_z; k < last_z; ++k) {
       uint* const rows = image + k * STAMP_SLICE;
-      const uint8 slice_0 = columns_0 + of_z[k], slice_1 = columns_1 + of_z[k];
+      const uint of_slice = of_z[k];
+      const columns_t in_slice = {columns.narrow + of_slice, columns.first + of_slice, columns.second + of_slice};
       const int out = rows_out(side, k);
-      if (last_y - first_y == side && out == 0) {
-#pragma unroll
-        for (int j = 0; j < side; ++j) stamp_row(rows + j * STAMP_ROW, slice_0, slice_1, of_y[j], vectors);
+      if (last_y - first_y < side) {
+        const bool is_narrow = IS_VOLUME && min(k, side - 1 - k) < rows_narrow(side);
+        for (int j = max(first_y, out); j < min(last_y, side - out); ++j) {
+          stamp_row(rows + j * STAMP_ROW, in_slice, of_y[j], side,
+                    is_narrow || min(j, side - 1 - j) < rows_narrow(side));
+        }
+      } else if (out == 0) {
+        stamp_slice(rows, in_slice, of_y, side, 0, side <= 8);
+      } else if (out == 1) {
+        stamp_slice(rows, in_slice, of_y, side, 1, side <= 10);
       } else {
-        for (int j = max(first_y, out); j < min(last_y, side - out); ++j)
-          stamp_row(rows + j * STAMP_ROW, slice_0, slice_1, of_y[j], vectors);
+        stamp_slice(rows, in_slice, of_y, side, 2, true);
       }
     }
   }
 }
-#define DEFINE_STAMP(side, vectors)                                                 \
+#define DEFINE_STAMP(side)                                                          \
   NOINLINE static void stamp_##side(int count, int bits, box_t tile, stamps_t* s) { \
-    stamp_all(count, bits, side, tile, s, vectors);                                 \
+    stamp_all(count, bits, side, tile, s);                                          \
   }
-DEFINE_STAMP(3, 1)
-DEFINE_STAMP(4, 1)
-DEFINE_STAMP(5, 1)
-DEFINE_STAMP(6, 1)
-DEFINE_STAMP(7, 1)
-DEFINE_STAMP(8, 1)
-DEFINE_STAMP(10, 2)
-DEFINE_STAMP(12, 2)
+DEFINE_STAMP(3)
+DEFINE_STAMP(4)
+DEFINE_STAMP(5)
+DEFINE_STAMP(6)
+DEFINE_STAMP(7)
+DEFINE_STAMP(8)
+DEFINE_STAMP(10)
+DEFINE_STAMP(12)
 #if !IS_VOLUME
-DEFINE_STAMP(14, 2)
+DEFINE_STAMP(14)
 #endif
 
 // Labels a tile; false if it is left to lists.

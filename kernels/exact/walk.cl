@@ -37,9 +37,9 @@ static inline span_t limits_of(int from, int to, int size, int periodic) {
 }
 static inline cuboid_t limits_around(const scene_t* scene, box_t b) {
   cuboid_t c;
-  c.x = limits_of(b.x, b.x + b.sx - 1, scene->size.x, PERIODIC_X);
-  c.y = limits_of(b.y, b.y + b.sy - 1, scene->size.y, PERIODIC_Y);
-  c.z = limits_of(b.z, b.z + b.sz - 1, scene->size.z, PERIODIC_Z);
+  c.x = limits_of(b.x, b.x + b.sx - 1, scene->size.x, IS_PERIODIC(scene, x));
+  c.y = limits_of(b.y, b.y + b.sy - 1, scene->size.y, IS_PERIODIC(scene, y));
+  c.z = limits_of(b.z, b.z + b.sz - 1, scene->size.z, IS_PERIODIC(scene, z));
   return c;
 }
 // No pixel is more than a period in front of the grid.
@@ -113,12 +113,12 @@ typedef struct {
 } walk_t;
 
 static inline void enter_y(const scene_t* scene, walk_t* w) {
-  const span_t y = of_image(w->y, w->image_y, scene->size.y, PERIODIC_Y);
+  const span_t y = of_image(w->y, w->image_y, scene->size.y, IS_PERIODIC(scene, y));
   w->row_y = (y.from >> scene->bins.bits.y) - 1;
   w->end_y = y.to >> scene->bins.bits.y;
 }
 static inline void enter_z(const scene_t* scene, walk_t* w) {
-  const span_t z = of_image(w->z, w->image_z, scene->size.z, PERIODIC_Z);
+  const span_t z = of_image(w->z, w->image_z, scene->size.z, IS_PERIODIC(scene, z));
   w->row_z = z.from >> scene->bins.bits.z;
   w->end_z = z.to >> scene->bins.bits.z;
 }
@@ -128,10 +128,10 @@ static inline walk_t walk_over(const scene_t* scene, span_t x, span_t y, span_t 
   w.x = x, w.y = y, w.z = z;
   w.has_balls = false;
   w.image_x = 1, w.last_x = 0;
-  w.image_y = image_at(y.from, scene->size.y, PERIODIC_Y),
-  w.last_y = image_at(y.to, scene->size.y, PERIODIC_Y);
-  w.image_z = image_at(z.from, scene->size.z, PERIODIC_Z),
-  w.last_z = image_at(z.to, scene->size.z, PERIODIC_Z);
+  w.image_y = image_at(y.from, scene->size.y, IS_PERIODIC(scene, y)),
+  w.last_y = image_at(y.to, scene->size.y, IS_PERIODIC(scene, y));
+  w.image_z = image_at(z.from, scene->size.z, IS_PERIODIC(scene, z)),
+  w.last_z = image_at(z.to, scene->size.z, IS_PERIODIC(scene, z));
   enter_z(scene, &w);
   enter_y(scene, &w);
   return w;
@@ -150,9 +150,10 @@ static inline bool row_in_balls(const scene_t* scene, walk_t* w) {
   const int y = (w->row_y << bits.y) + w->image_y * scene->size.y;
   const int z = (w->row_z << bits.z) + w->image_z * scene->size.z;
   // Places outside a window stand in the bins at its border.
-  const float north = !PERIODIC_Y && w->row_y == 0 ? -INFINITY : (float)(y * SPACING_Y);
-  const float south =
-      !PERIODIC_Y && w->row_y == scene->bins.rows - 1 ? INFINITY : (float)((y + (1 << bits.y)) * SPACING_Y);
+  const float north = !IS_PERIODIC(scene, y) && w->row_y == 0 ? -INFINITY : (float)(y * SPACING_Y);
+  const float south = !IS_PERIODIC(scene, y) && w->row_y == scene->bins.rows - 1
+                          ? INFINITY
+                          : (float)((y + (1 << bits.y)) * SPACING_Y);
   const corners_t dy = outside(w->balls.y, north, south);
   corners_t rest = w->balls.n - (IS_MANHATTAN ? dy : dy * dy);
   if (IS_VOLUME) {
@@ -183,35 +184,32 @@ static inline bool next_range(const scene_t* scene, walk_t* w, int4 centre, uint
   const bins_t* const bins = &scene->bins;
   while (true) {
     for (; w->image_x <= w->last_x; ++w->image_x) {
-      const span_t x = of_image(w->row, w->image_x, scene->size.x, PERIODIC_X);
+      const span_t x = of_image(w->row, w->image_x, scene->size.x, IS_PERIODIC(scene, x));
       const uint first = (uint)((w->row_z * bins->rows + w->row_y) * (bins->columns + 1));
       *from = scene->starts[first + (uint)(x.from >> bins->bits.x)];
       *to = scene->starts[first + (uint)(x.to >> bins->bits.x) + 1];
       if (*from == *to) continue;
-      *origin = centre;
-#ifdef VOROCL_PERIODIC
-      *origin -= (int4)(w->image_x, w->image_y, w->image_z, 0) * scene->size * (ONE * SPACINGS);
-#endif
+      *origin = centre - (int4)(w->image_x, w->image_y, w->image_z, 0) * scene->size * (ONE * SPACINGS);
       ++w->image_x;
       return true;
     }
     while (++w->row_y > w->end_y) {
-      if (PERIODIC_Y && w->image_y < w->last_y) {
+      if (IS_PERIODIC(scene, y) && w->image_y < w->last_y) {
         ++w->image_y;
         enter_y(scene, w);
         continue;
       }
-      w->image_y = image_at(w->y.from, scene->size.y, PERIODIC_Y);
+      w->image_y = image_at(w->y.from, scene->size.y, IS_PERIODIC(scene, y));
       if (++w->row_z > w->end_z) {
-        if (!PERIODIC_Z || w->image_z == w->last_z) return false;
+        if (!IS_PERIODIC(scene, z) || w->image_z == w->last_z) return false;
         ++w->image_z;
         enter_z(scene, w);
       }
       enter_y(scene, w);
     }
     if (!row_in_balls(scene, w)) continue;
-    w->image_x = image_at(w->row.from, scene->size.x, PERIODIC_X);
-    w->last_x = image_at(w->row.to, scene->size.x, PERIODIC_X);
+    w->image_x = image_at(w->row.from, scene->size.x, IS_PERIODIC(scene, x));
+    w->last_x = image_at(w->row.to, scene->size.x, IS_PERIODIC(scene, x));
   }
 }
 

@@ -91,7 +91,8 @@ Report exact_diagram_by_places(Filling& filling, DiagramState& state) {
     return filling.commit(0, done, done);
   }
   const cl_int has_ids = have_ids;
-  const cl_int4 size = {{grid.width(), grid.height(), grid.depth(), 0}}, bits = bits_of_bins(grid, count);
+  const cl_int axes = (grid.periodic_x() ? 1 : 0) | (grid.periodic_y() ? 2 : 0) | (grid.periodic_z() ? 4 : 0);
+  const cl_int4 size = {{grid.width(), grid.height(), grid.depth(), axes}}, bits = bits_of_bins(grid, count);
   const auto bins_along = [&](int axis) { return boxes_along(size.s[axis], 1 << bits.s[axis]); };
   const std::size_t rows = bins_along(1) * bins_along(2);
   const std::size_t entries = rows * (bins_along(0) + 1), room = count + BEHIND_PLACES;
@@ -110,6 +111,7 @@ Report exact_diagram_by_places(Filling& filling, DiagramState& state) {
   KernelOptions options{filling.metric()};
   if (filling.takes_places()) options.extent = Extent::fractions;
   options.weighted = weighted != nullptr;
+  options.any_axes = !in_groups;
   const auto kernel = [&, &of_grid = grid](const char* name, std::size_t items_of_group) -> Kernel& {
     return state.kernels
         .get(device, in_groups ? "exact/group/diagram.cl" : "exact/diagram.cl", name, of_grid, options)

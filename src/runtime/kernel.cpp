@@ -30,6 +30,13 @@ std::string bits_of_volume(const PixelGrid& grid) {
          " -DVOROCL_BITS_Y=" + std::to_string(bits.y) + " -DVOROCL_BITS_Z=" + std::to_string(bits.z);
 }
 
+std::string periodic_axes(const PixelGrid& grid, bool any_axes) {
+  if (any_axes) return grid.is_periodic() ? " -DVOROCL_PERIODIC=1" : "";
+  return std::string(grid.periodic_x() ? " -DVOROCL_PERIODIC_X" : "") +
+         (grid.periodic_y() ? " -DVOROCL_PERIODIC_Y" : "") +
+         (grid.periodic_z() ? " -DVOROCL_PERIODIC_Z" : "");
+}
+
 std::string build_options(int vector_width, const PixelGrid& grid, const KernelOptions& options) {
   return "-cl-std=CL1.2 -DVOROCL_WIDTH=" + std::to_string(vector_width) +
          " -DVOROCL_GUARD=" + std::to_string(guard) + build_option(options.metric) +
@@ -37,9 +44,8 @@ std::string build_options(int vector_width, const PixelGrid& grid, const KernelO
                                                         : " -DVOROCL_NEIGHBOURS=5") +
          (options.extent >= Extent::far ? " -DVOROCL_FAR" : "") +
          (options.extent == Extent::fractions ? " -DVOROCL_FRACTIONS" : "") +
-         (options.weighted ? " -DVOROCL_WEIGHTED" : "") + (grid.periodic_x() ? " -DVOROCL_PERIODIC_X" : "") +
-         (grid.periodic_y() ? " -DVOROCL_PERIODIC_Y" : "") +
-         (grid.periodic_z() ? " -DVOROCL_PERIODIC_Z" : "") + bits_of_volume(grid) + spacing_of_volume(grid);
+         (options.weighted ? " -DVOROCL_WEIGHTED" : "") + periodic_axes(grid, options.any_axes) +
+         bits_of_volume(grid) + spacing_of_volume(grid);
 }
 
 std::size_t round_up(std::size_t count, std::size_t multiple) {

@@ -31,10 +31,11 @@ struct KernelOptions {
   Neighbourhood neighbourhood = Neighbourhood::moore;
   Extent extent = Extent::grid;
   bool weighted = false;  // of exact diagrams: see kernels/exact/place.cl
+  bool any_axes = false;  // kernels are told which axes are periodic, if there are any
 
   friend bool operator==(const KernelOptions& a, const KernelOptions& b) {
     return a.metric == b.metric && a.neighbourhood == b.neighbourhood && a.extent == b.extent &&
-           a.weighted == b.weighted;
+           a.weighted == b.weighted && a.any_axes == b.any_axes;
   }
 };
 

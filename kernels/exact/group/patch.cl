@@ -15,8 +15,10 @@
       global const int *restrict zs, global const uint *restrict ids, global const int *restrict lags, \
       global const int2 *restrict order, int has_images, int4 bits, int4 size, int4 first, int4 last,  \
       global uint *restrict labels
-#define SCENE_OF_PARAMETERS \
-  { bins_of(bits, size), size, starts, xs, ys, zs, ids, lags, 0, has_images ? order : 0, first, last, labels }
+#define PERIODIC_AXES (int4)(PERIODIC_X, PERIODIC_Y, PERIODIC_Z, 0)
+#define SCENE_OF_PARAMETERS                                                                                           \
+  { bins_of(bits, size), size, PERIODIC_AXES, starts, xs, ys, zs, ids, lags, 0, has_images ? order : 0, first, last, \
+    labels }
 
 static inline box_t box_of_patch(const scene_t* scene, int patch) {
   const int across = ((scene->size.x - 1) >> PATCH_BITS) + 1;
