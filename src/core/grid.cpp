@@ -315,7 +315,7 @@ void check_volume(const Grid& grid) {
 PixelGrid::PixelGrid(const Window& window)
     : PixelGrid(checked_side(window.width(), "width"), checked_side(window.height(), "height"),
                 window.periodic()) {
-  if (has_voxels(window.grid())) {
+  if (vorocl::has_voxels(window.grid())) {
     if (!window.is_whole()) refuse_volume(window.grid(), "a window of a part");
     check_volume(window.grid());
     depth_ = static_cast<int>(window.depth());

@@ -48,7 +48,7 @@ bool kernels_go_round(const Window& window, const PixelGrid& shown) {
 }
 
 PackedPositions::PackedPositions(const PixelGrid& grid) : bits{{16, 15}}, empty(absent_position) {
-  if (!grid.is_volume()) return;
+  if (!grid.has_voxels()) return;
   const VoxelBits of_voxels(grid);
   bits = {{of_voxels.x, of_voxels.y}};
   empty = absent_voxel;

@@ -11,7 +11,7 @@ Report exact_diagram(const Seeds& seeds, Diagram& diagram, const ExactOptions& o
   Filling filling(seeds, diagram, options.metric, "exact");
   DiagramState& state = Internal::state(diagram);
   if (options.metric == Metric::great_circle) return exact_diagram_on_globe(filling, state);
-  if (state.grid.is_volume() && options.metric == Metric::manhattan) {
+  if (state.grid.has_voxels() && options.metric == Metric::manhattan) {
     throw Error(
         "exact diagrams of volumes and spaced planes are Euclidean; jump flooding takes the Manhattan "
         "metric");

@@ -34,7 +34,7 @@ struct Places {
 
 Places places_of(Filling& filling) {
   const PixelGrid& grid = filling.placement().grid;
-  if (filling.takes_places() && !grid.is_volume()) {
+  if (filling.takes_places() && !grid.has_voxels()) {
     const PointPlacement& points = filling.take_places();
     const bool have_ids = points.ids() != nullptr;
     const auto& [left, top, right, bottom] = points.region.s;
@@ -100,13 +100,13 @@ Report exact_diagram_by_places(Filling& filling, DiagramState& state) {
       state.workspace<PlacesWorkspace>();
   state.reserve(starts, (entries + 1) * word);
   for (cl::Buffer* const list : {&x, &y, &ids}) state.reserve(*list, room * word);
-  if (grid.is_volume()) state.reserve(z, room * word);
+  if (grid.has_voxels()) state.reserve(z, room * word);
   const bool in_groups = device.tuning().shape == Shape::group;
   const std::shared_ptr<const Lags> weighted = filling.seeds().lags();
   if (weighted) state.reserve(lags, (in_groups ? room : rows + room) * word);
   // Kernels do not look at what there is not.
   const cl::Buffer &of_lags = weighted ? lags : ids, &of_seeds = weighted ? weighted->there : ids,
-                   &of_z = grid.is_volume() ? z : x;
+                   &of_z = grid.has_voxels() ? z : x;
 
   KernelOptions options{filling.metric()};
   if (filling.takes_places()) options.extent = Extent::fractions;
@@ -148,7 +148,7 @@ Report exact_diagram_by_places(Filling& filling, DiagramState& state) {
     };
     const std::size_t items = device.tuning().patch_items,
                       items_of_crowd = std::min<std::size_t>(items, MOST_OF_CROWD_ITEMS);
-    if (grid.is_volume()) {
+    if (grid.has_voxels()) {
       const bool is_flat = grid.depth() == 1;
       const std::size_t boxes = boxes_along(grid.width(), is_flat ? CROWD_SIDE : BOX_WIDTH) *
                                 boxes_along(grid.height(), is_flat ? CROWD_SIDE : BOX_HEIGHT) *
@@ -180,7 +180,7 @@ Report exact_diagram_by_places(Filling& filling, DiagramState& state) {
       .over_items(chunks, given, given_ids, has_ids, count, chunk_count, bits, size, shift, counts, sorted);
   kernel("sort_buckets", 1)
       .over_items(BUCKETS, sorted, bits, size, shift, ends, of_seeds, starts, x, y, of_z, ids, of_lags);
-  const int side = grid.is_volume() ? SIDE_OF_VOLUME : SIDE_OF_PLANE;
+  const int side = grid.has_voxels() ? SIDE_OF_VOLUME : SIDE_OF_PLANE;
   const std::size_t items =
       boxes_along(grid.width(), side) * boxes_along(grid.height(), side) * boxes_along(grid.depth(), side);
   const cl::Event end = kernel("label_regions", 1)

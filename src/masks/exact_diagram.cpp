@@ -36,13 +36,13 @@ bool shows_marks(const Filling& filling) {
 bool labels_by_passes(const Filling& filling, const DiagramState& state) {
   // In groups random seeds of planes take fewer instructions by their index, however dense (counted).
   const bool in_groups = state.device.tuning().shape == Shape::group;
-  if (in_groups && !state.grid.is_volume()) return false;
+  if (in_groups && !state.grid.has_voxels()) return false;
   if (shows_marks(filling)) return true;
   if (filling.takes_places()) return false;
   const Placement& placement = filling.placement();
   // Of fewer seeds the ways by their index take a shorter time (measured), and in groups fewer instructions.
   const std::size_t pixels_per_seed = in_groups                               ? 128
-                                      : placement.grid.is_volume()            ? 24
+                                      : placement.grid.has_voxels()            ? 24
                                       : filling.metric() == Metric::euclidean ? 28
                                                                               : 40;
   return placement.is_crowded || filling.seeds().size > placement.grid.pixels() / pixels_per_seed;

@@ -46,7 +46,7 @@ ImageShape::ImageShape(const PixelGrid& grid)
     : width(grid.width()),
       height(grid.height()),
       depth(grid.depth()),
-      is_volume(grid.is_volume()),
+      is_volume(grid.has_voxels()),
       periodic_x(grid.periodic_x()),
       periodic_y(grid.periodic_y()),
       periodic_z(grid.periodic_z()) {}
@@ -121,7 +121,7 @@ namespace {
 /// How the parts of a position lie in it.
 struct PositionBits {
   explicit PositionBits(const PixelGrid& grid) {
-    if (!grid.is_volume()) return;
+    if (!grid.has_voxels()) return;
     const VoxelBits of_volume(grid);
     x = of_volume.x;
     y = of_volume.y;
@@ -156,7 +156,7 @@ void Marks::list(KernelSet& kernels, const PixelGrid& grid, const cl::Buffer& po
   mask_kernel(kernels, device, "list_marks")
       .over_items(shape.rows() + 1, bits, counts, static_cast<cl_int>(shape.rows()),
                   static_cast<cl_int>(shorts_of_row()), shape.height, bits_of_position.x, bits_of_position.y,
-                  cl_uint{grid.is_volume() ? absent_voxel : absent_position}, positions);
+                  cl_uint{grid.has_voxels() ? absent_voxel : absent_position}, positions);
 }
 
 }  // namespace vorocl

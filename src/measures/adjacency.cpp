@@ -21,7 +21,7 @@ constexpr cl_uint no_pair = 0xffffffffu;  // NO_PAIR of pair_table.cl
 /// neighbours; then it grows.
 struct SlotsOfCell {
   explicit SlotsOfCell(const MeasuredDiagram& of, const Blocks& blocks) {
-    const bool is_volume = of.grid.is_volume();
+    const bool is_volume = of.grid.has_voxels();
     const std::size_t small = blocks.pixels() / (is_volume ? 4096 : 1024);
     list = is_volume ? 16 : 8;  // LIST_SIZE of pair_table.cl
     table = of.grid.pixels() <= small * of.count() ? list / 4 : list;

@@ -33,7 +33,7 @@ Report cell_shapes(const Diagram& diagram, CellShapesResult& result) {
   CellShapesState& shapes = measuring.state();
   MeasuredDiagram of = cells_of(diagram);
   const cl_uint count = of.count();
-  const std::size_t box = of.grid.is_volume() ? sizeof(cl_int8) : sizeof(cl_int4);
+  const std::size_t box = of.grid.has_voxels() ? sizeof(cl_int8) : sizeof(cl_int4);
   make_room(shapes.boxes, of.device, count * sides * sizeof(cl_int));
   make_room(shapes.distances, of.device, count * (of.is_far() ? sizeof(cl_long) : sizeof(cl_int)));
   make_room(shapes.home, of.device, count * sizeof(cl_ushort));

@@ -42,7 +42,7 @@ Report cell_sums(const Diagram& diagram, CellSumsResult& result) {
     make_room(*sum, of.device, count * sizeof(cl_long));
   }
   make_room(sums.home, of.device, count * sizeof(cl_ushort));
-  make_room(sums.home_sums, of.device, count * (of.grid.is_volume() ? sizeof(cl_uint4) : sizeof(cl_ulong)));
+  make_room(sums.home_sums, of.device, count * (of.grid.has_voxels() ? sizeof(cl_uint4) : sizeof(cl_ulong)));
   const char* const file = "measures/cells.cl";
   const KernelOptions options = of.options_without_metric();
   const Blocks blocks(of.device, of.grid);

@@ -35,7 +35,7 @@ void check_density(const Window& window, const std::vector<float>& density) {
     const auto width = static_cast<std::size_t>(pixels.width()), row = i / width;
     const auto height = static_cast<std::size_t>(pixels.height());
     throw Error("the density of pixel (" + std::to_string(i % width) + ", " + std::to_string(row % height) +
-                (pixels.is_volume() ? ", " + std::to_string(row / height) : "") + ") is " +
+                (pixels.has_voxels() ? ", " + std::to_string(row / height) : "") + ") is " +
                 std::to_string(density[i]) + "; it must be a finite number of at least 0");
   }
 }

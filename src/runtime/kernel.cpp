@@ -24,7 +24,7 @@ std::string spacing_of_volume(const PixelGrid& grid) {
 }
 
 std::string bits_of_volume(const PixelGrid& grid) {
-  if (!grid.is_volume()) return "";
+  if (!grid.has_voxels()) return "";
   const VoxelBits bits(grid);
   return " -DVOROCL_DIMENSIONS=3 -DVOROCL_BITS_X=" + std::to_string(bits.x) +
          " -DVOROCL_BITS_Y=" + std::to_string(bits.y) + " -DVOROCL_BITS_Z=" + std::to_string(bits.z);

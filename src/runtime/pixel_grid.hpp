@@ -27,7 +27,7 @@ class PixelGrid {
   int width() const { return width_; }
   int height() const { return height_; }
   int depth() const { return depth_; }
-  bool is_volume() const { return depth_ > 1 || is_spaced(); }
+  bool has_voxels() const { return depth_ > 1 || is_spaced(); }
   bool is_spaced() const { return spacing_ != std::array<int, 3>{1, 1, 1}; }
   const std::array<int, 3>& spacing() const { return spacing_; }  ///< of x, y and z
   Axes periodic() const { return periodic_; }                     ///< z in a volume alone
