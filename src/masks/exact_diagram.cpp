@@ -42,7 +42,7 @@ bool labels_by_passes(const Filling& filling, const DiagramState& state) {
   const Placement& placement = filling.placement();
   // Of fewer seeds the ways by their index take a shorter time (measured), and in groups fewer instructions.
   const std::size_t pixels_per_seed = in_groups                               ? 128
-                                      : placement.grid.has_voxels()            ? 24
+                                      : placement.grid.has_voxels()           ? 24
                                       : filling.metric() == Metric::euclidean ? 28
                                                                               : 40;
   return placement.is_crowded || filling.seeds().size > placement.grid.pixels() / pixels_per_seed;
