@@ -261,21 +261,20 @@ INLINE void stamp_all(int count, int bits, const int side, box_t tile, stamps_t*
     }
   }
 }
+#if IS_VOLUME
+#define EACH_SIDE(DO) DO(3) DO(4) DO(5) DO(6) DO(7) DO(8) DO(10) DO(12)
+#else
+#define EACH_SIDE(DO) DO(3) DO(4) DO(5) DO(6) DO(7) DO(8) DO(10) DO(12) DO(14)
+#endif
 #define DEFINE_STAMP(side)                                                          \
   NOINLINE static void stamp_##side(int count, int bits, box_t tile, stamps_t* s) { \
     stamp_all(count, bits, side, tile, s);                                          \
   }
-DEFINE_STAMP(3)
-DEFINE_STAMP(4)
-DEFINE_STAMP(5)
-DEFINE_STAMP(6)
-DEFINE_STAMP(7)
-DEFINE_STAMP(8)
-DEFINE_STAMP(10)
-DEFINE_STAMP(12)
-#if !IS_VOLUME
-DEFINE_STAMP(14)
-#endif
+EACH_SIDE(DEFINE_STAMP)
+#define CASE_OF_STAMP(side)             \
+  case side:                            \
+    stamp_##side(count, bits, tile, s); \
+    break;
 
 // Labels a tile; false if it is left to lists.
 NOINLINE static bool label_by_stamps(const scene_t* scene, box_t tile, int side, stamps_t* s) {
@@ -305,37 +304,7 @@ NOINLINE static bool label_by_stamps(const scene_t* scene, box_t tile, int side,
     s->rank[number] = (uint)i;
     s->labels[i] = scene->ids[s->at[number]];
   }
-  switch (side) {
-    case 3:
-      stamp_3(count, bits, tile, s);
-      break;
-    case 4:
-      stamp_4(count, bits, tile, s);
-      break;
-    case 5:
-      stamp_5(count, bits, tile, s);
-      break;
-    case 6:
-      stamp_6(count, bits, tile, s);
-      break;
-    case 7:
-      stamp_7(count, bits, tile, s);
-      break;
-    case 8:
-      stamp_8(count, bits, tile, s);
-      break;
-    case 10:
-      stamp_10(count, bits, tile, s);
-      break;
-#if !IS_VOLUME
-    case 14:
-      stamp_14(count, bits, tile, s);
-      break;
-#endif
-    default:
-      stamp_12(count, bits, tile, s);
-      break;
-  }
+  switch (side) { EACH_SIDE(CASE_OF_STAMP) }
   const uint limit = limit_of(side) << bits, mask = (1u << bits) - 1;
   const int sx = min(tile.sx, scene->size.x - tile.x), sy = min(tile.sy, scene->size.y - tile.y);
   const int sz = min(tile.sz, scene->size.z - tile.z);

@@ -235,8 +235,7 @@ def new_array(shape: Tuple[int, ...], dtype: Any) -> NDArray[Any]:
     lines = 128
     size = math.prod(shape) * np.dtype(dtype).itemsize
     memory = np.empty(size + lines, np.uint8)
-    first = -memory.ctypes.data % lines
-    return memory[first : first + size].view(dtype).reshape(shape)
+    return np.ndarray(shape, dtype, buffer=memory, offset=-memory.ctypes.data % lines)
 
 
 def output(

@@ -1,11 +1,197 @@
 #include "vorocl/exact_diagram.hpp"
 
+#include <algorithm>
+#include <array>
+#include <cmath>
+
 #include "core/diagram_state.hpp"
-#include "exact/places.hpp"
 #include "globe/globe.hpp"
 #include "masks/exact_diagram.hpp"
+#include "runtime/buffer.hpp"
+// Last: it defines macros.
+#include "exact/sizes.cl"
 
 namespace vorocl {
+
+namespace {
+
+static_assert(fractions_of_pixel == 1 << MOST_FRACTION_BITS);
+
+/// The engine's working memory.
+struct PlacesWorkspace {
+  cl::Buffer counts, ends, sorted;        // while the index is made
+  cl::Buffer table;                       // likewise, in the group shape
+  cl::Buffer starts, x, y, z, ids, lags;  // the index (kernels/exact/bins.cl)
+  cl::Buffer pending, queue;              // patches without labels as yet, and those with crowds
+};
+
+/// What is labelled: places with their images, or seeds at the centres of the grid's pixels.
+struct Places {
+  PixelGrid grid;
+  cl::Buffer given, ids, order;
+  bool have_ids;
+  cl_uint count;
+  cl_int4 first, last;  // of the pixels that get labels
+  bool in_pixels;       // see PointPlacement
+};
+
+Places places_of(Filling& filling) {
+  const PixelGrid& grid = filling.placement().grid;
+  if (filling.takes_places() && !grid.has_voxels()) {
+    const PointPlacement& points = filling.take_places();
+    const bool have_ids = points.ids() != nullptr;
+    const auto& [left, top, right, bottom] = points.region.s;
+    return {points.grid,   points.places,     have_ids ? points.ids : points.places,
+            points.order,  have_ids,          points.count,
+            {{left, top}}, {{right, bottom}}, points.places_in_pixels};
+  }
+  const cl::Buffer& given =
+      filling.takes_places() ? filling.take_places().seeds : *filling.placement().positions;
+  return {grid,  given,
+          given, given,
+          false, static_cast<cl_uint>(filling.seeds().size),
+          {},    {{grid.width() - 1, grid.height() - 1, grid.depth() - 1}},
+          false};
+}
+
+std::size_t boxes_along(int pixels, int side) { return static_cast<std::size_t>((pixels - 1) / side) + 1; }
+
+/// Bins as near to squares or cubes as powers of two come, with PLACES_OF_BIN each. Rather high than wide: a
+/// walk takes bins of a row at once.
+cl_int4 bits_of_bins(const PixelGrid& grid, std::size_t places) {
+  const std::array<int, 3> sides = {grid.width(), grid.height(), grid.depth()};
+  cl_int4 bits = {};
+  const double each = PLACES_OF_BIN * static_cast<double>(grid.pixels()) /
+                      static_cast<double>(std::max<std::size_t>(places, 1));
+  for (auto doublings = std::llround(std::log2(std::max(each, 1.0))); doublings > 0; --doublings) {
+    std::size_t shortest = 3;
+    const auto length = [&](std::size_t axis) { return grid.spacing()[axis] << bits.s[axis]; };
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      if (1 << bits.s[axis] >= sides[axis]) continue;
+      if (shortest == 3 || length(axis) <= length(shortest)) shortest = axis;
+    }
+    if (shortest == 3) break;
+    ++bits.s[shortest];
+  }
+  return bits;
+}
+
+/// The parts of the list of seeds that are sorted at once: each costs a count per bucket.
+std::size_t chunks_of(std::size_t seeds) { return seeds < 4096 ? 1 : seeds < 65536 ? 8 : 64; }
+
+/// Labels the diagram by lists of places and by stamps (kernels/exact).
+Report exact_diagram_by_places(Filling& filling, DiagramState& state) {
+  const auto [grid, given, given_ids, order, have_ids, count, first, last, in_pixels] = places_of(filling);
+  const Device device = without_vectors(state.device);  // kernels have vectors of their own
+  if (in_pixels) {
+    const cl::Event done =
+        state.kernels
+            .get(device, "exact/far.cl", "label_far", grid,
+                 {filling.metric(), Neighbourhood::moore, Extent::far})
+            .over_items(grid.pixels(), given, given_ids, order, count,
+                        cl_int4{{grid.width(), grid.height(), 1, 0}}, first, last, state.labels);
+    return filling.commit(0, done, done);
+  }
+  const cl_int has_ids = have_ids;
+  const cl_int axes = (grid.periodic_x() ? 1 : 0) | (grid.periodic_y() ? 2 : 0) | (grid.periodic_z() ? 4 : 0);
+  const cl_int4 size = {{grid.width(), grid.height(), grid.depth(), axes}}, bits = bits_of_bins(grid, count);
+  const auto bins_along = [&](int axis) { return boxes_along(size.s[axis], 1 << bits.s[axis]); };
+  const std::size_t rows = bins_along(1) * bins_along(2);
+  const std::size_t entries = rows * (bins_along(0) + 1), room = count + BEHIND_PLACES;
+  auto& [counts, ends, sorted, table, starts, x, y, z, ids, lags, pending, queue] =
+      state.workspace<PlacesWorkspace>();
+  state.reserve(starts, (entries + 1) * word);
+  for (cl::Buffer* const list : {&x, &y, &ids}) state.reserve(*list, room * word);
+  if (grid.has_voxels()) state.reserve(z, room * word);
+  const bool in_groups = device.tuning().shape == Shape::group;
+  const std::shared_ptr<const Lags> weighted = filling.seeds().lags();
+  if (weighted) state.reserve(lags, (in_groups ? room : rows + room) * word);
+  // Kernels do not look at what there is not.
+  const cl::Buffer &of_lags = weighted ? lags : ids, &of_seeds = weighted ? weighted->there : ids,
+                   &of_z = grid.has_voxels() ? z : x;
+
+  KernelOptions options{filling.metric()};
+  if (filling.takes_places()) options.extent = Extent::fractions;
+  options.weighted = weighted != nullptr;
+  options.any_axes = !in_groups;
+  const auto kernel = [&, &of_grid = grid](const char* name, std::size_t items_of_group) -> Kernel& {
+    return state.kernels
+        .get(device, in_groups ? "exact/group/diagram.cl" : "exact/diagram.cl", name, of_grid, options)
+        .in_groups_of(items_of_group);
+  };
+  if (in_groups) {
+    const std::size_t group = device.tuning().group_width * device.tuning().group_height;
+    const std::size_t items_of_places = std::max<std::size_t>(count, 1);
+    const std::size_t most_of_row = std::min<std::size_t>(group, MOST_ITEMS_OF_ROW);
+    constexpr std::size_t warp = 32;  // fewer take no less time, and PoCL compiles anew for each size
+    std::size_t items_of_row = std::min(warp, most_of_row);
+    while (items_of_row < std::min(bins_along(0), most_of_row)) items_of_row *= 2;
+    cl_uint table_bits = 1;
+    while (std::size_t{1} << table_bits < 2 * items_of_places) ++table_bits;
+    const std::size_t of_table = (std::size_t{1} << table_bits) + items_of_places;
+    state.reserve(table, of_table * word);
+    const cl::Event begin = fill(state.device, starts, cl_uint{0}, entries + 1);
+    fill(state.device, table, ~cl_uint{0}, of_table);
+    kernel("find_repeats", group)
+        .over_items(items_of_places, given, given_ids, has_ids, of_seeds, count, table_bits, table);
+    kernel("count_places", group)
+        .over_items(items_of_places, given, table_bits, table, count, bits, size, starts);
+    kernel("start_bins", items_of_row).over_items(rows * items_of_row, starts, bits, size);
+    kernel("list_places", group)
+        .over_items(items_of_places, given, table_bits, table, count, bits, size, of_seeds, starts, x, y,
+                    of_z, ids, of_lags);
+    // Lambdas take no structured bindings but by names of their own.
+    const auto label = [&, &of_starts = starts, &of_x = x, &of_y = y, &of_ids = ids, &of_order = order,
+                        of_first = first, of_last = last](const char* name, std::size_t items_of_group,
+                                                          std::size_t groups, const auto&... more) {
+      return kernel(name, items_of_group)
+          .over_items(groups * items_of_group, of_starts, of_x, of_y, of_z, of_ids, of_lags, of_order,
+                      has_ids, bits, size, of_first, of_last, state.labels, more...);
+    };
+    const std::size_t items = device.tuning().patch_items,
+                      items_of_crowd = std::min<std::size_t>(items, MOST_OF_CROWD_ITEMS);
+    if (grid.has_voxels()) {
+      const bool is_flat = grid.depth() == 1;
+      const std::size_t boxes = boxes_along(grid.width(), is_flat ? CROWD_SIDE : BOX_WIDTH) *
+                                boxes_along(grid.height(), is_flat ? CROWD_SIDE : BOX_HEIGHT) *
+                                boxes_along(grid.depth(), BOX_DEPTH);
+      return filling.commit(0, begin,
+                            label(is_flat ? "label_squares" : "label_boxes", items_of_crowd, boxes));
+    }
+    const std::size_t patches = boxes_along(grid.width(), PATCH) * boxes_along(grid.height(), PATCH);
+    state.reserve(pending, patches * word);
+    state.reserve(queue, (1 + patches) * word);
+    constexpr std::size_t crowds_along = PATCH / CROWD_SIDE, crowds_of_patch = crowds_along * crowds_along;
+    label("stamp_patches", items, patches, pending, queue);
+    label("list_patches", items, patches, pending, queue);
+    const cl::Event end = label("label_crowds", items_of_crowd, crowds_of_patch * patches, queue);
+    return filling.commit(0, begin, end);
+  }
+  const std::size_t chunks = chunks_of(count);
+  const auto chunk_count = static_cast<cl_uint>(chunks);
+  state.reserve(counts, chunks * BUCKETS * word);
+  state.reserve(ends, BUCKETS * word);
+  state.reserve(sorted, room * sizeof(cl_int4));
+  cl_uint shift = 0;
+  while ((rows - 1) >> shift >= BUCKETS) ++shift;
+  // Work-items that do much each: small groups spread them over the compute units.
+  const cl::Event begin =
+      kernel("count_chunks", 1).over_items(chunks, given, count, chunk_count, bits, size, shift, counts);
+  kernel("sum_chunks", 1).over_items(1, chunk_count, counts, ends);
+  kernel("sort_chunks", 1)
+      .over_items(chunks, given, given_ids, has_ids, count, chunk_count, bits, size, shift, counts, sorted);
+  kernel("sort_buckets", 1)
+      .over_items(BUCKETS, sorted, bits, size, shift, ends, of_seeds, starts, x, y, of_z, ids, of_lags);
+  const int side = grid.has_voxels() ? SIDE_OF_VOLUME : SIDE_OF_PLANE;
+  const std::size_t items =
+      boxes_along(grid.width(), side) * boxes_along(grid.height(), side) * boxes_along(grid.depth(), side);
+  const cl::Event end = kernel("label_regions", 1)
+                            .over_items(items, starts, x, y, of_z, ids, of_lags, order, has_ids, bits, size,
+                                        first, last, state.labels);
+  return filling.commit(0, begin, end);
+}
+
+}  // namespace
 
 Report exact_diagram(const Seeds& seeds, Diagram& diagram, const ExactOptions& options) {
   Filling filling(seeds, diagram, options.metric, "exact");
