@@ -1,6 +1,7 @@
 // How many dimensions there are: the build option VOROCL_DIMENSIONS, 3 in volumes. And which axes are periodic: the
 // build options VOROCL_PERIODIC_X, VOROCL_PERIODIC_Y and, in volumes, VOROCL_PERIODIC_Z. Their period is the grid's
-// side, and distances go the shorter way round. Kernels that are told which axes they are have VOROCL_PERIODIC alone.
+// side, and distances go the shorter way round. Kernels that take the periodic axes as an argument have the build
+// option VOROCL_PERIODIC alone.
 
 #ifndef VOROCL_PERIODS
 #define VOROCL_PERIODS

@@ -180,7 +180,8 @@ NOINLINE static bool label_alone(const scene_t* scene, box_t b, level_t level, l
 }
 
 // What lies in the bins of a box: so many places, their mean lag in squared pixels if it is wanted, and the bins'
-// pixels.
+// pixels. A place whose lag no stamp holds counts with the least such lag: a few of them do not decide.
+#define MOST_LAG ((MOST_STAMP_SIDE * MOST_STAMP_SIDE / 4) << LAG_BITS)
 typedef struct {
   uint places, pixels;
   float lag;
@@ -197,8 +198,10 @@ static inline around_t around(const scene_t* scene, box_t b, const bool wants_la
       const uint first = (uint)((z * bins->rows + y) * (bins->columns + 1));
       const uint from = scene->starts[first + (uint)x0], to = scene->starts[first + (uint)x1 + 1];
       found.places += to - from;
-      for (uint at = from; wants_lag && at < to; at += 8)
-        lags += select((float8)0, convert_float8(vload8(0, scene->lags + at)), EIGHT < (int)(to - at));
+      for (uint at = from; wants_lag && at < to; at += 8) {
+        const int8 lag = min(vload8(0, scene->lags + at), (int8)MOST_LAG);
+        lags += convert_float8(select((int8)0, lag, EIGHT < (int)(to - at)));
+      }
     }
   }
   const float4 sums = lags.lo + lags.hi;
@@ -224,8 +227,8 @@ NOINLINE static void label_by_lists(const scene_t* scene, box_t outer, lists_t* 
   }
 }
 
-// The side of stamps for places as dense as these: few pixels are so far from all places that half of it is less than
-// the distance and the lag. 0: none.
+// The side of stamps for places as dense as these: of few pixels the squared distance and the lag of each place is more
+// than the square of half of it. 0: none.
 #define STAMP_FACTOR 7.f  // times the pixels of a place are those of a ball of that radius
 static inline int stamp_side(around_t there) {
   if (IS_SPACED || IS_MANHATTAN) return 0;

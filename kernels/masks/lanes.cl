@@ -40,7 +40,7 @@ __attribute__((noinline)) static void store_some(const uchar* values, global uch
       store_some((const uchar*)lane_values, (global uchar*)(out), (lanes) * (int)sizeof(type)); \
     }                                                                                            \
   } while (0)
-// The same in one of `images`, which no kernel reads soon.
+// The same in one of `images`. What is stored comes back into the caches from memory if a later kernel reads it.
 #define STREAM_LANES(images, type, vector, out, lanes)                                                     \
   do {                                                                                                     \
     const bool has_lines = sizeof(type##16) % BYTES_OF_LINE == 0 && (size_t)(out) % sizeof(type##16) == 0; \

@@ -24,14 +24,15 @@ constexpr std::size_t guard = 16;
 /// (kernels/core/units.cl). Distances take 32 bits in the grid, else 64.
 enum class Extent { grid, far, fractions };
 
-/// What kernels are specialised for when they are built, besides the vector width and the grid's periodic
-/// axes. Kernels that read no distance or no neighbours are the same for all.
+/// What kernels are specialised for when they are built, besides the vector width and, unless they take these
+/// as an argument, the grid's periodic axes. Kernels that read no distance or no neighbours are the same for
+/// all.
 struct KernelOptions {
   Metric metric = Metric::euclidean;
   Neighbourhood neighbourhood = Neighbourhood::moore;
   Extent extent = Extent::grid;
   bool weighted = false;  // of exact diagrams: see kernels/exact/place.cl
-  bool any_axes = false;  // kernels are told which axes are periodic, if there are any
+  bool any_axes = false;  // kernels take the periodic axes as an argument, if there are any
 
   friend bool operator==(const KernelOptions& a, const KernelOptions& b) {
     return a.metric == b.metric && a.neighbourhood == b.neighbourhood && a.extent == b.extent &&

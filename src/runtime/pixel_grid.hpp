@@ -11,8 +11,9 @@
 
 namespace vorocl {
 
-/// Rows of pixels, and along which axes their ends meet; in a volume slices of rows. Kernels are built for
-/// the periodic axes, for vectors no longer than a row, and in a volume for its VoxelBits and its spacing.
+/// Rows of pixels, and along which axes their ends meet; in a volume slices of rows. Most kernels are built
+/// for the periodic axes, all for vectors no longer than a row, and in a volume for its VoxelBits and its
+/// spacing.
 class PixelGrid {
  public:
   PixelGrid(int width, int height, Axes periodic = Axes::none)

@@ -48,8 +48,11 @@ void each_voxel(const Grid& grid, Use use) {
 struct RandomCase {
   explicit RandomCase(unsigned number) : rng(number), kind(number / 2 % 9) {
     const std::int64_t most = number % 3 == 0 ? 8 : number % 32 == 1 ? 64 : 30;
-    // Few programs: none, all, one of the axes is periodic.
-    static constexpr std::array<Axes, 4> periodic = {Axes::none, Axes::xyz, Axes::z, Axes::none};
+    // In groups few programs: none, all, one of the axes is periodic.
+    static constexpr std::array<Axes, 6> some = {Axes::xyz, Axes::x, Axes::y, Axes::xy, Axes::xz, Axes::yz};
+    const bool in_groups = test_device().tuning().shape == Shape::group;
+    const std::array<Axes, 4> periodic = {Axes::none, in_groups ? Axes::xyz : some[number / 4 % 6], Axes::z,
+                                          Axes::none};
     const auto side = [&] { return 1 + below(most); };
     const std::int64_t width = side(), height = side();
     grid = Grid(width, height, 1 + side(), periodic[number % 4]);
