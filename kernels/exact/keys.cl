@@ -134,6 +134,7 @@ static inline void show_eight(const scene_t* scene, bool is_inside, int x, int y
 static inline bool is_inside(const scene_t* scene, box_t b) {
   return has_label(scene, b.x, b.y, b.z) && has_label(scene, b.x + b.sx - 1, b.y + b.sy - 1, b.z + b.sz - 1);
 }
+// Whether a box of one label is whole lines of an image that no cache is taken to hold.
 static inline bool has_lines(const scene_t* scene, box_t b) {
   return b.sx % 16 == 0 && scene->size.x % 16 == 0 && (size_t)scene->labels % BYTES_OF_LINE == 0 &&
          IS_STREAMED(index_of(scene, 0, 0, scene->size.z));

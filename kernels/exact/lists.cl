@@ -55,8 +55,8 @@ typedef struct {
   global uint* labels;  // written
 } scene_t;
 
-// In programs of periodic grids a bit of size.w says of each axis whether it is periodic. (In the group shape build
-// options say so: the argument takes registers.)
+// In programs of periodic grids a bit of size.w says of each axis whether it is periodic, as those of Axes do. (In the
+// group shape build options say so: the argument takes registers.)
 #define AXES_OF(size) ((int4)((size).w) >> (int4)(0, 1, 2, 3) & 1)
 #ifdef VOROCL_PERIODIC
 #define IS_PERIODIC(scene, axis) ((scene)->periodic.axis != 0)

@@ -93,8 +93,8 @@ Report exact_diagram_by_places(Filling& filling, DiagramState& state) {
     return filling.commit(0, done, done);
   }
   const cl_int has_ids = have_ids;
-  const cl_int axes = (grid.periodic_x() ? 1 : 0) | (grid.periodic_y() ? 2 : 0) | (grid.periodic_z() ? 4 : 0);
-  const cl_int4 size = {{grid.width(), grid.height(), grid.depth(), axes}}, bits = bits_of_bins(grid, count);
+  const cl_int4 size = {{grid.width(), grid.height(), grid.depth(), static_cast<cl_int>(grid.periodic())}};
+  const cl_int4 bits = bits_of_bins(grid, count);
   const auto bins_along = [&](int axis) { return boxes_along(size.s[axis], 1 << bits.s[axis]); };
   const std::size_t rows = bins_along(1) * bins_along(2);
   const std::size_t entries = rows * (bins_along(0) + 1), room = count + BEHIND_PLACES;

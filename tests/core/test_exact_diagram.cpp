@@ -135,8 +135,9 @@ BOOST_AUTO_TEST_CASE(hurtful_sets_against_a_tree) {
 }
 
 BOOST_AUTO_TEST_CASE(large_diagrams_against_a_tree) {
-  const Grid square(2048, 2048);
+  const Grid square(2048, 2048), wide(2064, 2040);
   check_against_tree(square, random_pixels(square, 16384, 21));
+  check_against_tree(wide, random_pixels(wide, 200000, 32));  // by passes, whose labels go past the caches
   check_against_tree({32768, 64}, random_pixels({32768, 64}, 1, 22));
   check_against_tree({64, 32768}, random_pixels({64, 32768}, 3000, 23), Metric::manhattan);
   // Seeds that are as far apart as they can be: distances just below 2^31.
