@@ -22,10 +22,13 @@ void check_count(std::size_t count) {
   }
 }
 
-void check_weight(const Points& points, std::size_t id) {
-  if (points.weights() == nullptr || std::isfinite(points.weights()[id])) return;
-  throw Error("the weight of seed " + std::to_string(id) + " is " + std::to_string(points.weights()[id]) +
-              "; weights must be finite");
+void check_weights(const Points& points) {
+  if (points.weights() == nullptr) return;
+  for (std::size_t id = 0; id < points.size(); ++id) {
+    if (std::isfinite(points.weights()[id]) || !points.is_present(id)) continue;
+    throw Error("the weight of seed " + std::to_string(id) + " is " + std::to_string(points.weights()[id]) +
+                "; weights must be finite");
+  }
 }
 
 int coordinates_of(const PointBuffer& points) {
@@ -155,6 +158,7 @@ void SeedsState::place(const Grid& grid, const Points& points) {
     throw Error(
         "the seeds have weights, and the points that they shall move to have none; give each a weight");
   }
+  check_weights(points);
   const Snapping snapping(grid, options.outside);
   const std::shared_ptr<std::vector<double>> numbers = numbers_.take();
   const GivenPoints given = {numbers, points.have_z() ? 3 : 2};
@@ -162,23 +166,30 @@ void SeedsState::place(const Grid& grid, const Points& points) {
   std::vector<bool> there(points.size(), true);
   std::size_t absent = 0, beyond = 0;
   bool lost = there.size() < present.size();
-  double* to = numbers->data();
-  for (std::size_t id = 0; id < points.size(); ++id, to += given.dimensions) {
-    Snapping::Where where = Snapping::Where::absent;
-    if (points.is_present(id)) {
-      const Point point = point_on(grid, points, id);
-      where = snapping.find(id, point);
+  const auto dimensions = static_cast<std::size_t>(given.dimensions);
+  constexpr std::size_t part = 512;  // points that lie in the first cache when they are looked at
+  for (std::size_t first = 0; first < points.size(); first += part) {
+    const std::size_t end = std::min(first + part, points.size());
+    double* const here = numbers->data() + first * dimensions;
+    double* to = here;
+    for (std::size_t id = first; id < end; ++id, to += dimensions) {
+      const bool is_present = points.is_present(id);
+      const Point point = is_present ? points[id] : Point{std::numeric_limits<double>::quiet_NaN()};
       to[0] = point.x;
       to[1] = point.y;
-      if (given.dimensions > 2) to[2] = point.z;
-      check_weight(points, id);
+      if (dimensions > 2) to[2] = point.z;
     }
-    beyond += where == Snapping::Where::outside ? 1 : 0;
-    if (where != Snapping::Where::absent) continue;
-    *to = std::numeric_limits<double>::quiet_NaN();
-    there[id] = false;
-    ++absent;
-    lost = lost || (id < present.size() && present[id]);
+    if (snapping.are_sure(here, to, given.dimensions)) continue;
+    for (std::size_t id = first; id < end; ++id) {
+      const Snapping::Where where =
+          points.is_present(id) ? snapping.find(id, point_on(grid, points, id)) : Snapping::Where::absent;
+      beyond += where == Snapping::Where::outside ? 1 : 0;
+      if (where != Snapping::Where::absent) continue;
+      here[(id - first) * dimensions] = std::numeric_limits<double>::quiet_NaN();
+      there[id] = false;
+      ++absent;
+      lost = lost || (id < present.size() && present[id]);
+    }
   }
   SeedsFrame next = next_frame(grid, points.size(), lost);
   next.absent = absent;
