@@ -269,12 +269,17 @@ static inline float spread_of_keys(const list_t* list, int count, box_t b) {
 #if IS_MANHATTAN
     const float8 lead = fabs(f.n - distance_of(first)) + (reach.x + reach.y);
 #else
-    // Differences of whole numbers: floats of near places keep their digits.
-    const float8 x = fabs(convert_float8(p.x - list->x[0])), y = fabs(convert_float8(p.y - list->y[0]));
-    float8 lead = fma(x, fabs(f.x + first.x) + reach.x, y * (fabs(f.y + first.y) + reach.y));
+    // |c|^2 less that of the first place is (c - d).(c + d), and the way to a pixel comes on top. Differences of
+    // whole numbers: floats of near places keep their digits.
+    const float8 x = convert_float8(p.x - list->x[0]), y = convert_float8(p.y - list->y[0]);
+    float8 lead = fma(x, f.x + first.x, y * (f.y + first.y)), to_pixels = fma(fabs(x), reach.x, fabs(y) * reach.y);
+    float8 terms = fma(fabs(x), fabs(f.x) + fabs(first.x), fabs(y) * (fabs(f.y) + fabs(first.y)));
 #if IS_VOLUME
-    lead = fma(fabs(convert_float8(p.z - list->z[0])), fabs(f.z + first.z) + reach.z, lead);
+    const float8 z = convert_float8(p.z - list->z[0]);
+    lead = fma(z, f.z + first.z, lead), to_pixels = fma(fabs(z), reach.z, to_pixels);
+    terms = fma(fabs(z), fabs(f.z) + fabs(first.z), terms);
 #endif
+    lead = fabs(lead) + to_pixels + terms * 0x1p-20f;
     if (IS_WEIGHTED) lead += lead_of_lags(list, k, 0).terms;
 #endif
     most = fmax(most, select(lead, (float8)0, EIGHT + k >= count));
@@ -352,8 +357,8 @@ NOINLINE static bool label_by_keys(const scene_t* scene, const list_t* list, int
 // --- more places ---
 //
 // Keys without ranks, which take as many of the low bits as there is room for. Of eight places at a time the
-// least key is taken, and it is known of which eight; which one of these it is is looked up at the end. Where
-// two places of a pixel have the least key they are compared in 64 bits.
+// least key is taken, and it is known which eight were the first and the last that have it; which of their
+// places have it is looked up at the end. Several places of a pixel that do are compared in 64 bits.
 
 // Keys are those of the origin less so much per pixel; by the Manhattan metric they are distances.
 typedef struct {
@@ -400,9 +405,9 @@ NOINLINE static bool find_by_keys(const scene_t* scene, const list_t* list, int 
   const uint8 columns = as_uint8(EIGHT - 4);
   for (int row = 0; row < b.sy * b.sz; row += ROWS) {
     const int y = row % b.sy - b.sy / 2, z = row / b.sy - b.sz / 2;
-    int8 least[ROWS], best[ROWS], is_tie[ROWS];
+    int8 least[ROWS], first[ROWS], last[ROWS];  // and the first and the last eight that have it
 #pragma unroll
-    for (int r = 0; r < ROWS; ++r) least[r] = INT_MAX, best[r] = 0, is_tie[r] = 0;
+    for (int r = 0; r < ROWS; ++r) least[r] = INT_MAX, first[r] = last[r] = 0;
     for (int k = 0; k < count; k += 8) {
       int8 least_of_eight[ROWS];
 #pragma unroll
@@ -432,24 +437,25 @@ NOINLINE static bool find_by_keys(const scene_t* scene, const list_t* list, int 
       }
 #pragma unroll
       for (int r = 0; r < ROWS; ++r) {
-        const int8 is_less = least_of_eight[r] < least[r];
-        is_tie[r] = (is_tie[r] & ~is_less) | (least_of_eight[r] == least[r]);
-        best[r] = select(best[r], (int8)k, is_less);
+        first[r] = select(first[r], (int8)k, least_of_eight[r] < least[r]);
+        last[r] = select(last[r], (int8)k, least_of_eight[r] <= least[r]);
         least[r] = min(least[r], least_of_eight[r]);
       }
     }
     for (int r = 0; r < ROWS; ++r) {
-      int lane[8], first[8];
-      store_ints(least[r], lane), store_ints(best[r], first);
-      const uint ties = mask_of(is_tie[r]);
+      int lane[8], from[8], to[8];
+      store_ints(least[r], lane), store_ints(first[r], from), store_ints(last[r], to);
       for (int i = 0; i < 8; ++i) {
-        const int k = first[i];
-        const uint mask =
-            mask_of((keys_at(list, &keys, k, i - 4, y + r, z) == lane[i]) & (EIGHT + k < count));
-        found[(row + r) * 8 + i] =
-            (ties >> i & 1u) || (mask & (mask - 1))
-                ? nearest_at(scene, b, list, count, b.x + i, b.y + b.sy / 2 + y + r, b.z + b.sz / 2 + z)
-                : list->at[k + 31 - (int)clz(mask)];
+        const int px = b.x + i, py = b.y + b.sy / 2 + y + r, pz = b.z + b.sz / 2 + z;
+        uint best = NO_PLACE;
+        for (int k = from[i]; k <= to[i]; k += 8) {
+          uint mask = mask_of((keys_at(list, &keys, k, i - 4, y + r, z) == lane[i]) & (EIGHT + k < count));
+          for (; mask != 0; mask &= mask - 1) {
+            const uint at = list->at[k + 31 - (int)clz(mask & (0 - mask))];
+            if (best == NO_PLACE || is_nearer(scene, px, py, pz, at, best)) best = at;
+          }
+        }
+        found[(row + r) * 8 + i] = best;
       }
     }
   }

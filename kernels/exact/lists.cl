@@ -386,7 +386,7 @@ NOINLINE static int drop_by_slices(list_t* list, int count, box_t box) {
       next = max(next, length);
     }
   }
-  if (next > longest / 4) return count;
+  if (next > longest / 32) return count;
   const int at_a = axis == 0 ? 1 : 0, at_b = axis == 2 ? 1 : 2, slices = min(sides[axis], MOST_SLICES);
   const int thickness = sides[axis] / slices, step = units[axis] * thickness;
   const float w_own = (float)(thickness - 1) * (float)units[axis];

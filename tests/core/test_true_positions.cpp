@@ -245,6 +245,25 @@ BOOST_AUTO_TEST_CASE(crowds_that_no_list_holds) {
   }
 }
 
+BOOST_AUTO_TEST_CASE(crowds_along_lines) {
+  // 32 points per pixel. Where the slope is 1 nearly all pixels are halfway between two of them.
+  const Grid grid(150, 150);
+  for (const double slope : {1.0, 0.5, 0.03}) {
+    std::vector<std::optional<Point>> points;
+    for (int i = 0; i < 32 * 150; ++i) {
+      const double along = (i + 0.5) / 32;
+      points.emplace_back(Point{along, 75 + slope * (along - 75)});
+    }
+    for (const Metric metric : both_metrics) {
+      const Labels expected = labels_by_definition(grid, positions_of(grid, points), metric);
+      for (const Engine& engine : engines_of(metric)) {
+        BOOST_TEST(count_differences(labels_of(engine, grid, points, metric), expected) == 0u,
+                   engine.name << ", slope " << slope << ", " << name_of(metric));
+      }
+    }
+  }
+}
+
 BOOST_AUTO_TEST_CASE(points_on_pixel_centres_give_the_labels_of_snapped_seeds) {
   for (unsigned kind = 0; kind < kinds_of_planes; ++kind) {
     const Grid grid(150, 110, static_cast<Axes>(kind % 4));
