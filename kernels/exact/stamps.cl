@@ -14,7 +14,7 @@
 
 #define STAMP_PAD 16
 #define STAMP_SIDE (IS_VOLUME ? SIDE_OF_VOLUME : SIDE_OF_PLANE)  // of the image
-#define STAMP_ROW (STAMP_SIDE + 2 * STAMP_PAD)
+#define STAMP_ROW (STAMP_SIDE + STAMP_PAD)  // what sticks out at the left lies behind the row before
 #define SLICE_PAD 16
 #define STAMP_SLICE \
   (STAMP_ROW * STAMP_SIDE + SLICE_PAD)  // no multiple of 4096 bytes: stores would wait for each other
@@ -289,14 +289,14 @@ NOINLINE static bool label_by_stamps(const scene_t* scene, box_t tile, int side,
   if ((ulong)most << (FRACTION_BITS - 1 + bits) >> 32) return false;
   prepare_stamps(count, side, s);
   order_stamps(scene, count, s);
-  const bool inside = is_inside(scene, tile);
+  const bool inside = is_inside(scene, tile), streams = inside && has_lines(scene, tile);
   for (int z = 0; z < tile.sz; ++z) {
     for (int y = 0; y < tile.sy; ++y) {
       uint* const row = s->image + z * STAMP_SLICE + y * STAMP_ROW + STAMP_PAD;
       for (int x = 0; x < tile.sx; x += 8) store_uints((uint8)NO_KEY, row + x);
       // The labels' lines come while stamps are made.
       global uint* const out = scene->labels + index_of(scene, tile.x, tile.y + y, tile.z + z);
-      for (int x = 0; inside && x < tile.sx; x += 16) PREFETCH(out + x);
+      for (int x = 0; inside && !streams && x < tile.sx; x += 16) PREFETCH(out + x);
     }
   }
   for (int i = 0; i < count; ++i) {
@@ -318,22 +318,34 @@ NOINLINE static bool label_by_stamps(const scene_t* scene, box_t tile, int side,
   const int left = sum_of(far);
   if (left > sx * sy * sz / LEFT_PART) return false;
   for (int z = 0; z < sz; ++z) {
+    // Labels take the places of the keys, and are stored when the whole slice has them: what was written a while ago is
+    // read in vectors at once.
     for (int y = 0; y < sy; ++y) {
-      const uint* const row = s->image + z * STAMP_SLICE + y * STAMP_ROW + STAMP_PAD;
+      uint* const row = s->image + z * STAMP_SLICE + y * STAMP_ROW + STAMP_PAD;
       for (int x = 0; x < sx; x += 8) {
         const uint8 keys = vload8(0, row + x);
-        // Keys of pixels without a stamp have ranks that may be too great.
-        show_eight(scene, inside, tile.x + x, tile.y + y, tile.z + z,
-                   look_up_one_by_one(s->labels, min(keys & mask, (uint8)(uint)(count - 1))));
+        uint rank[8];  // of pixels without a stamp it may be too great
+        store_uints(min(keys & mask, (uint8)(uint)(count - 1)), rank);
+#pragma unroll
+        for (int i = 0; i < 8; ++i) row[x + i] = s->labels[rank[i]];
         if (left == 0) continue;
         for (uint rest = mask_of((keys >= limit) & (EIGHT < sx - x)); rest != 0; rest &= rest - 1) {
-          const int lane = 31 - (int)clz(rest & (0 - rest)), vx = tile.x + x + lane, vy = tile.y + y,
-                    vz = tile.z + z;
-          const uint key = row[x + lane],
-                     number = (uint)(s->order[min(key & mask, (uint)count - 1)] & 0xffff);
-          const uint known = key == NO_KEY ? NO_PLACE : s->at[number];
-          scene->labels[index_of(scene, vx, vy, vz)] = search_pixel(scene, vx, vy, vz, known);
+          const int lane = 31 - (int)clz(rest & (0 - rest));
+          const uint number = (uint)(s->order[rank[lane]] & 0xffff);
+          const uint known = mask_of(keys == NO_KEY) >> lane & 1u ? NO_PLACE : s->at[number];
+          row[x + lane] = search_pixel(scene, tile.x + x + lane, tile.y + y, tile.z + z, known);
         }
+      }
+    }
+    for (int y = 0; y < sy; ++y) {
+      const uint* const row = s->image + z * STAMP_SLICE + y * STAMP_ROW + STAMP_PAD;
+      if (streams) {
+        global uint16* const lines = (global uint16*)(scene->labels + index_of(scene, tile.x, tile.y + y, tile.z + z));
+        for (int i = 0; i < tile.sx / 16; ++i) STREAM(vload16(0, row + 16 * i), lines + i);
+        continue;
+      }
+      for (int x = 0; x < sx; x += 8) {
+        show_eight(scene, inside, tile.x + x, tile.y + y, tile.z + z, vload8(0, row + x));
       }
     }
   }
