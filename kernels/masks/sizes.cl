@@ -30,15 +30,22 @@
 #define REACH_OF_COSTS(size) (2 * (size) + PAD)
 #define COSTS(size) (2 * REACH_OF_COSTS(size) + 1)
 
-// What a work-item remembers of a line of so many places, in vectors of keys or of whole numbers (lines.cl): the
-// sites' keys, with images along a periodic line; the least key of each place; what the sites carry, and what the
-// places find; and for each place the ends of the sites that are tried, the number of a site in the list of sites, the
-// list, and where these are.
+// Along z a row of so many strips is read and written together: slices lie far apart, and memory gives lines of the
+// cache that lie beside each other in half the time. Longer lines are taken strip by strip: working memory would leave
+// the caches.
+#define MOST_AT_ONCE 4
+#define LONGEST_AT_ONCE 1024
+
+// What a work-item remembers of lines of so many places, in vectors of keys or of whole numbers (lines.cl): the
+// sites' keys, with images along a periodic line; of each strip of a row the least key of each place, what the sites
+// carry, and what the places find; and for each place the ends of the sites that are tried, the number of a site in the
+// list of sites, the list, and where these are.
 #define KEYS_OF_LINE(longest) (2 * ((longest) + PAD))
 #define CARRIED_BY_LINE(longest) ((longest) + PAD + PAD)
 #define INTS_OF_LINE(longest) (8 * (longest) + 64)
-#define VECTORS_OF_KEYS(longest) (KEYS_OF_LINE(longest) + (longest))
-#define VECTORS_OF_INTS(longest) (CARRIED_BY_LINE(longest) + (longest) + INTS_OF_LINE(longest) / STRIP + 1)
+#define VECTORS_OF_KEYS(longest, strips) (KEYS_OF_LINE(longest) + (strips) * (longest))
+#define VECTORS_OF_INTS(longest, strips) \
+  ((strips) * (CARRIED_BY_LINE(longest) + (longest)) + INTS_OF_LINE(longest) / STRIP + 1)
 
 // In the group shape: places of a line that a work-group takes, a BAND. The most items that sum counts.
 #define BAND 64
@@ -74,6 +81,7 @@ typedef struct {
   cl_long longest_length;              // the bits of a double; so is one that is farther than this, if ...
   cl_float float_x, float_y, float_z;  // the lengths
   cl_int width, height, depth, longest;
+  cl_int strips_at_once;               // along z
   cl_int period_x, period_y, period_z;  // as many pixels, or 0
   cl_int bits_y, bits_z, saturates_y, saturates_z;
   cl_int most_x_of_y, most_x_of_z, most_y_of_z;

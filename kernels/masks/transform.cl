@@ -21,15 +21,14 @@
   global const one_key *costs, global keys *keys_of_items, global int16 *ints_of_items, global uchar *flags
 typedef struct {
   global keys* keys;
-  global int16 *carried, *found;
+  global int16* carried;
   global int* ints;
 } memory_t;
-static inline memory_t memory_of_item(global keys* all_keys, global int16* all_ints, int longest) {
+static inline memory_t memory_of_item(global keys* all_keys, global int16* all_ints, const images_t* e) {
   memory_t m;
-  m.keys = all_keys + (size_t)ITEM * (size_t)VECTORS_OF_KEYS(longest);
-  m.carried = all_ints + (size_t)ITEM * (size_t)VECTORS_OF_INTS(longest) + PAD;
-  m.found = m.carried + longest + PAD;
-  m.ints = (global int*)(m.found + longest);
+  m.keys = all_keys + (size_t)ITEM * (size_t)VECTORS_OF_KEYS(e->longest, e->strips_at_once);
+  m.carried = all_ints + (size_t)ITEM * (size_t)VECTORS_OF_INTS(e->longest, e->strips_at_once) + PAD;
+  m.ints = (global int*)(m.carried - PAD + e->strips_at_once * (CARRIED_BY_LINE(e->longest) + e->longest));
   return m;
 }
 
@@ -39,7 +38,7 @@ static line_t line_of(memory_t m, int longest, int size, int period, int bits, b
   line_t l;
   l.takes = takes;
   l.carried = m.carried;
-  l.found = m.found;
+  l.found = m.carried + longest + PAD;
   l.size = size;
   l.period = period;
   l.bits = bits;
@@ -77,6 +76,15 @@ static line_t line_of(memory_t m, int longest, int size, int period, int bits, b
     while (l.first > -l.count && l.at[l.first - 1] >= -(period / 2)) --l.first;
     while (l.last < 2 * l.count - 1 && l.at[l.last + 1] < size + period / 2) ++l.last;
   }
+  return l;
+}
+
+// The line of a further strip of a row, which has what it finds and carries for itself.
+static inline line_t line_of_strip(const line_t* first, int strip, int longest) {
+  line_t l = *first;
+  l.best += strip * longest;
+  l.carried += strip * (CARRIED_BY_LINE(longest) + longest);
+  l.found += strip * (CARRIED_BY_LINE(longest) + longest);
   return l;
 }
 
@@ -163,7 +171,7 @@ ITEM_KERNEL void nearest_in_strips(global const images_t* images, MEMORY_PARAMET
   const images_t e = *images;
   const targets_t t = TARGETS_OF_PARAMETERS;
   global int* site;
-  const line_t l = line_of(memory_of_item(keys_of_items, ints_of_items, e.longest), e.longest, e.height, e.period_y,
+  const line_t l = line_of(memory_of_item(keys_of_items, ints_of_items, &e), e.longest, e.height, e.period_y,
                            e.bits_y, e.saturates_y, e.limit_y, e.carried == CARRIES_LABELS, costs, counts, &site);
   const int strips = STRIPS_OF(e.width), end = (int)((long)(ITEM + 1) * strips / ITEMS);
   for (int s = (int)((long)ITEM * strips / ITEMS); s < end; ++s) {
@@ -197,7 +205,7 @@ ITEM_KERNEL void nearest_in_slices(global const images_t* images, MEMORY_PARAMET
                                    global ushort* restrict columns_of_items, global uint* restrict counts_of_slices,
                                    global uint* restrict between, int step, global uint* restrict labels) {
   const images_t e = *images;
-  const memory_t m = memory_of_item(keys_of_items, ints_of_items, e.longest);
+  const memory_t m = memory_of_item(keys_of_items, ints_of_items, &e);
   const int strips = STRIPS_OF(e.width);
   const size_t of_strip = (size_t)SHORTS_OF_STRIP(e.height);
   const bool has_labels = e.carried == CARRIES_LABELS;
@@ -239,30 +247,53 @@ ITEM_KERNEL void nearest_in_slices(global const images_t* images, MEMORY_PARAMET
   }
 }
 
-// The least keys of a line along z, and what they carry. Returns whether all sums held.
-static bool find_along_z(const line_t* l, global const int* site, const images_t* e, global const uint* between,
-                         int step, global const uint* labels, int x0, int y, int lanes) {
+// Loads what is known of the voxels of a row of strips in the slices that are sites.
+static void load_along_z(const line_t* l, global const int* site, const images_t* e, global const uint* between,
+                         int step, global const uint* labels, int first, int end, int y) {
   const bool has_places = e->carried == CARRIES_PLACES, has_labels = e->carried == CARRIES_LABELS;
-  global int16* const known = has_places ? l->carried : l->found;
-  // Slices lie far apart: all is loaded before it is needed.
   for (int i = 0; i < l->count; ++i) {
-    const size_t at = index_of_pixel(x0, y, site[i], e);
-    known[site[i]] = as_int16(load_lanes(between, at, step, lanes));
-    if (has_labels) l->carried[site[i]] = as_int16(load_lanes(labels, at, 1, lanes));
+    for (int s = first; s < end; ++s) {
+      const line_t of_strip = line_of_strip(l, s - first, e->longest);
+      const int lanes = min(STRIP, e->width - s * STRIP);
+      const size_t at = index_of_pixel(s * STRIP, y, site[i], e);
+      global int16* const known = has_places ? of_strip.carried : of_strip.found;
+      known[site[i]] = as_int16(load_lanes(between, at, step, lanes));
+      if (has_labels) of_strip.carried[site[i]] = as_int16(load_lanes(labels, at, 1, lanes));
+    }
   }
+}
+
+// The least keys of a line along z, and what they carry. Returns whether all sums held.
+static bool find_along_z(const line_t* l, global const int* site, const images_t* e, int x0, int y) {
+  const bool has_places = e->carried == CARRIES_PLACES;
   begin_keys(l);
   for (int i = 0; i < l->count; ++i) {
     const int z = site[i];
-    const int16 p = known[z];
     if (!has_places) {
-      set_key(l, i, z, TO_KEYS(as_uint16(p)));
+      set_key(l, i, z, TO_KEYS(as_uint16(l->found[z])));
       continue;
     }
+    const int16 p = l->carried[z];
     const int16 dx = way_of((p & 0xffff) - (LANE + x0), e->period_x), dy = way_of((p >> 16) - y, e->period_y);
     set_key(l, i, z,
             part_of(dx, e->most_x_of_z, (one_key)e->square_x) + part_of(dy, e->most_y_of_z, (one_key)e->square_y));
   }
   return find_along_line(l);
+}
+
+INLINE void store_along_z(const line_t* l, const images_t* e, const targets_t* t, int x0, int y, int z) {
+  const int lanes = min(STRIP, e->width - x0);
+  if (l->count == 0) {
+    store_none(x0, y, z, lanes, e, t);
+  } else if (e->carried == CARRIES_LABELS) {
+    store_labels(l->found[z], x0, y, z, lanes, e, t);
+  } else {
+    const keys best = l->best[z], square = square_of(best, l->bits);
+    const int16 slice = sites_of(best, l->bits);
+    const int16 place = e->carried == CARRIES_PLACES ? carried_by(slice, z, l->carried) : (int16)0;
+    nearest_t n = {0, x0, y, z, lanes, place & 0xffff, place >> 16, slice, too_far(square, e), square};
+    store_nearest(&n, e, t);
+  }
 }
 
 ITEM_KERNEL void nearest_along_z(global const images_t* images, MEMORY_PARAMETERS, global const ushort* marks,
@@ -271,29 +302,31 @@ ITEM_KERNEL void nearest_along_z(global const images_t* images, MEMORY_PARAMETER
   const images_t e = *images;
   const targets_t t = TARGETS_OF_PARAMETERS;
   global int* site;
-  const line_t l = line_of(memory_of_item(keys_of_items, ints_of_items, e.longest), e.longest, e.depth, e.period_z,
-                           e.bits_z, e.saturates_z, e.limit_z, e.carried == CARRIES_LABELS, costs, counts_of_slices,
-                           &site);
+  const line_t l = line_of(memory_of_item(keys_of_items, ints_of_items, &e), e.longest, e.depth, e.period_z, e.bits_z,
+                           e.saturates_z, e.limit_z, e.carried == CARRIES_LABELS, costs, counts_of_slices, &site);
   const int strips = STRIPS_OF(e.width);
   for (int y = ITEM; y < e.height; y += ITEMS) {
-    for (int s = 0; s < strips; ++s) {
-      global uchar* const flag = flags + (size_t)y * (size_t)strips + s;
-      if (IS_SECOND && *flag == 0) continue;
-      const int x0 = s * STRIP, lanes = min(STRIP, e.width - x0);
-      const bool held = l.count == 0 || find_along_z(&l, site, &e, between, step, labels, x0, y, lanes);
-      *flag = !held;
-      if (!held) continue;
+    global uchar* const flag = flags + (size_t)y * (size_t)strips;
+    for (int first = 0; first < strips; first += e.strips_at_once) {
+      const int end = min(first + e.strips_at_once, strips);
+      bool some = !IS_SECOND;
+      for (int s = first; IS_SECOND && s < end; ++s) some |= flag[s] != 0;
+      if (!some) continue;
+      load_along_z(&l, site, &e, between, step, labels, first, end, y);
+      bool shows[MOST_AT_ONCE];
+      for (int s = first; s < end; ++s) {
+        shows[s - first] = false;
+        if (IS_SECOND && flag[s] == 0) continue;
+        const line_t of_strip = line_of_strip(&l, s - first, e.longest);
+        const bool held = l.count == 0 || find_along_z(&of_strip, site, &e, s * STRIP, y);
+        flag[s] = !held;
+        shows[s - first] = held;
+      }
       for (int z = 0; z < e.depth; ++z) {
-        if (l.count == 0) {
-          store_none(x0, y, z, lanes, &e, &t);
-        } else if (e.carried == CARRIES_LABELS) {
-          store_labels(l.found[z], x0, y, z, lanes, &e, &t);
-        } else {
-          const keys best = l.best[z], square = square_of(best, l.bits);
-          const int16 slice = sites_of(best, l.bits);
-          const int16 place = e.carried == CARRIES_PLACES ? carried_by(slice, z, l.carried) : (int16)0;
-          nearest_t n = {0, x0, y, z, lanes, place & 0xffff, place >> 16, slice, too_far(square, &e), square};
-          store_nearest(&n, &e, &t);
+        for (int s = first; s < end; ++s) {
+          if (!shows[s - first]) continue;
+          const line_t of_strip = line_of_strip(&l, s - first, e.longest);
+          store_along_z(&of_strip, &e, &t, s * STRIP, y, z);
         }
       }
     }

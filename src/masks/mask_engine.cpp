@@ -100,6 +100,10 @@ MaskEngine::Pass MaskEngine::make_pass(int size, std::int64_t square, std::int64
   return pass;
 }
 
+int MaskEngine::strips_at_once() const {
+  return shape_.depth > 1 && std::max(shape_.height, shape_.depth) <= LONGEST_AT_ONCE ? MOST_AT_ONCE : 1;
+}
+
 int MaskEngine::carried_for(const NearestTargets& targets) const {
   if (targets.labels() != nullptr) return CARRIES_LABELS;
   const int wanted = wanted_of(targets);
@@ -134,6 +138,7 @@ cl::Buffer MaskEngine::images_of(const NearestTargets& targets, int carried, boo
   images.height = shape_.height;
   images.depth = shape_.depth;
   images.longest = std::max(shape_.height, shape_.depth);
+  images.strips_at_once = strips_at_once();
   images.period_x = shape_.periodic_x ? shape_.width : 0;
   images.period_y = shape_.periodic_y ? shape_.height : 0;
   images.period_z = shape_.periodic_z ? shape_.depth : 0;
@@ -210,9 +215,10 @@ Commands MaskEngine::run(KernelSet& kernels, const Marks& marks, const NearestTa
                     longest = std::max(height, depth);
   const bool is_volume = depth > 1, saturates = along_y_.saturates || along_z_.saturates;
   // All work-items together have a byte per pixel to work in, or there is one for each unit.
-  const std::size_t keys_of_item =
-      VECTORS_OF_KEYS(longest) * STRIP * (saturates ? sizeof(cl_long) : sizeof(cl_uint));
-  const std::size_t ints_of_item = VECTORS_OF_INTS(longest) * bytes_of_ints;
+  const std::size_t at_once = static_cast<std::size_t>(strips_at_once()),
+                    keys_of_item = VECTORS_OF_KEYS(longest, at_once) * STRIP *
+                                   (saturates ? sizeof(cl_long) : sizeof(cl_uint)),
+                    ints_of_item = VECTORS_OF_INTS(longest, at_once) * bytes_of_ints;
   const std::size_t most_items =
       std::clamp(shape_.pixels() / (keys_of_item + ints_of_item), units_of(device_), items_of(device_));
   const std::size_t items_of_slices = std::min(most_items, depth),

@@ -53,6 +53,9 @@ class MaskEngine {
     bool starts_far = false;  // these would seldom do
   };
   Pass make_pass(int size, std::int64_t square, std::int64_t most, std::int64_t greatest_square) const;
+  /// How many strips of a row are taken together along z.
+  int strips_at_once() const;
+
   /// What passes carry for these targets (kernels/masks/sizes.cl).
   int carried_for(const NearestTargets& targets) const;
 
