@@ -313,6 +313,19 @@ BOOST_AUTO_TEST_CASE(long_axes_have_distances_of_any_length) {
   BOOST_TEST(got.ranks[70000] == 0u);
 }
 
+// Along z strips of a row are taken together, and of long lines one by one. Some are left to keys of 64 bits.
+BOOST_AUTO_TEST_CASE(volumes_have_any_number_of_strips) {
+  for (const int width : {64, 75, 130}) check_all_images({{width, 9, 8}}, 3);
+  check_all_images({{90, 7, 6}, {true, true, true}}, 4);
+  for (const int depth : {900, 1100}) {
+    const Shape3 shape = {{120, 2, depth}, {false, false, depth > 1000}, {13, 1, 1}};
+    Bytes image(shape.pixels(), 1);
+    for (const int x : {0, 3})
+      image[static_cast<std::size_t>(depth / 2 + x) * 240 + static_cast<std::size_t>(x)] = 0;
+    check_against_brute_force(shape, image);
+  }
+}
+
 // Results of more than 2^22 pixels go past the caches, line by line, where rows are whole lines.
 BOOST_AUTO_TEST_CASE(images_are_larger_than_caches) {
   for (const Sides& sides : {Sides{2064, 2050, 1}, Sides{2050, 2064, 1}, Sides{272, 130, 121}}) {
