@@ -376,7 +376,7 @@ NOINLINE static int drop_by_slices(list_t* list, int count, box_t box) {
 #endif
   // The axis along which the places lie farthest apart: this pays where they lie along a line.
   int axis = 0, longest = -1, next = -1;
-  for (int i = 0; i < VOROCL_DIMENSIONS; ++i) {
+  for (int i = 0; i < AXES_OF_PLACES; ++i) {
     const extent_t extent = extent_of(along[i], count);
     if (extent.first < -MOST_OF_SUMS || extent.last > MOST_OF_SUMS) return count;
     const int length = extent.last - extent.first;

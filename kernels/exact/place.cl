@@ -21,7 +21,13 @@
 #include "exact/lanes.cl"
 #include "exact/sizes.cl"
 
-#define IS_VOLUME (VOROCL_DIMENSIONS == 3)
+#define HAS_VOXELS (VOROCL_DIMENSIONS == 3)  // seeds come as those of volumes
+#ifdef VOROCL_FLAT                           // there is one slice of voxels: a spaced plane
+#define IS_VOLUME 0
+#else
+#define IS_VOLUME HAS_VOXELS
+#endif
+#define AXES_OF_PLACES (IS_VOLUME ? 3 : 2)
 #ifdef VOROCL_MANHATTAN
 #define IS_MANHATTAN 1
 #else
@@ -60,9 +66,10 @@
 typedef uint given_t;
 static inline bool is_given(given_t given) { return !(given & EMPTY_BIT); }
 static inline int4 place_of(given_t given) {
-  return (int4)(x_of(given), y_of(given), z_of(given), 0) * ONE + (int4)(HALF, HALF, IS_VOLUME ? HALF : 0, 0);
+  return (int4)(x_of(given), y_of(given), IS_VOLUME ? z_of(given) : 0, 0) * ONE +
+         (int4)(HALF, HALF, IS_VOLUME ? HALF : 0, 0);
 }
-#elif IS_VOLUME
+#elif HAS_VOXELS
 typedef int4 given_t;
 static inline bool is_given(given_t given) { return given.x != ABSENT; }
 static inline int4 place_of(given_t given) { return given; }

@@ -11,15 +11,16 @@
 // Sides of boxes. A work-item has a region of a volume, or a tile of a plane; the first tile's has the whole
 // region where that has few places.
 #if IS_VOLUME
+#define IS_LONG (2 * SPACING_Z >= 5 * SPACING_X)  // voxels along z
 #define REGION SIDE_OF_VOLUME
 #define TILE 16
 #define BOX_X 16
 #define BOX_Y 8
-#define BOX_Z 8
+#define BOX_Z (IS_LONG ? 4 : 8)  // nearer to cubes
 #define PART_X 8
 #define PART_Y 4
-#define PART_Z 4
-#define FEW_OF_TILE UINT_MAX
+#define PART_Z (IS_LONG ? 2 : 4)
+#define FEW_OF_TILE (IS_LONG ? 40 : UINT_MAX)
 #define MANY_OF_TILE 100
 #define MOST_OF_BOX 64
 #else

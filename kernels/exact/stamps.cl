@@ -285,7 +285,7 @@ NOINLINE static bool label_by_stamps(const scene_t* scene, box_t tile, int side,
   // The greatest distance of a lane, squared, and lag.
   const int lanes = side > 8 ? 16 : 8, far_x = max(lanes - side / 2, side / 2) + 1, far_y = side / 2 + 1;
   const int most_lag = IS_WEIGHTED ? side * side / 4 + 1 : 0;
-  const int most = far_x * far_x + (VOROCL_DIMENSIONS - 1) * far_y * far_y + most_lag;
+  const int most = far_x * far_x + (AXES_OF_PLACES - 1) * far_y * far_y + most_lag;
   if ((ulong)most << (FRACTION_BITS - 1 + bits) >> 32) return false;
   prepare_stamps(count, side, s);
   order_stamps(scene, count, s);

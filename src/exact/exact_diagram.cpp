@@ -102,15 +102,17 @@ Report exact_diagram_by_places(Filling& filling, DiagramState& state) {
       state.workspace<PlacesWorkspace>();
   state.reserve(starts, (entries + 1) * word);
   for (cl::Buffer* const list : {&x, &y, &ids}) state.reserve(*list, room * word);
-  if (grid.has_voxels()) state.reserve(z, room * word);
   const bool in_groups = device.tuning().shape == Shape::group;
+  KernelOptions options{filling.metric()};
+  options.flat = !in_groups && grid.has_voxels() && grid.depth() == 1;
+  const bool have_z = grid.has_voxels() && !options.flat;
+  if (have_z) state.reserve(z, room * word);
   const std::shared_ptr<const Lags> weighted = filling.seeds().lags();
   if (weighted) state.reserve(lags, (in_groups ? room : rows + room) * word);
   // Kernels do not look at what there is not.
   const cl::Buffer &of_lags = weighted ? lags : ids, &of_seeds = weighted ? weighted->there : ids,
-                   &of_z = grid.has_voxels() ? z : x;
+                   &of_z = have_z ? z : x;
 
-  KernelOptions options{filling.metric()};
   if (filling.takes_places()) options.extent = Extent::fractions;
   options.weighted = weighted != nullptr;
   options.any_axes = !in_groups;
@@ -182,7 +184,7 @@ Report exact_diagram_by_places(Filling& filling, DiagramState& state) {
       .over_items(chunks, given, given_ids, has_ids, count, chunk_count, bits, size, shift, counts, sorted);
   kernel("sort_buckets", 1)
       .over_items(BUCKETS, sorted, bits, size, shift, ends, of_seeds, starts, x, y, of_z, ids, of_lags);
-  const int side = grid.has_voxels() ? SIDE_OF_VOLUME : SIDE_OF_PLANE;
+  const int side = have_z ? SIDE_OF_VOLUME : SIDE_OF_PLANE;
   const std::size_t items =
       boxes_along(grid.width(), side) * boxes_along(grid.height(), side) * boxes_along(grid.depth(), side);
   const cl::Event end = kernel("label_regions", 1)

@@ -33,10 +33,11 @@ struct KernelOptions {
   Extent extent = Extent::grid;
   bool weighted = false;  // of exact diagrams: see kernels/exact/place.cl
   bool any_axes = false;  // kernels take the periodic axes as an argument, if there are any
+  bool flat = false;      // of exact diagrams of voxels: there is one slice of them
 
   friend bool operator==(const KernelOptions& a, const KernelOptions& b) {
     return a.metric == b.metric && a.neighbourhood == b.neighbourhood && a.extent == b.extent &&
-           a.weighted == b.weighted && a.any_axes == b.any_axes;
+           a.weighted == b.weighted && a.any_axes == b.any_axes && a.flat == b.flat;
   }
 };
 

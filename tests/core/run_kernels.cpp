@@ -264,7 +264,7 @@ void make_volumes(const Device& device, const Grid& grid) {
 }
 
 /// Points within their voxels: few, dense ones, many on one point and on a line, on a sphere. A plane that is
-/// spaced is labelled as a volume of one slice, in which points have no z.
+/// spaced is labelled as other planes are, in groups as a volume of one slice; its points have no z.
 void make_volumes_of_points(const Device& device) {
   int number = 0;
   for (const Grid& grid : {Grid(20, 9, 6), Grid(18, 13, 7, Axes::xyz), Grid(Axis(20).spaced(2), Axis(9)),

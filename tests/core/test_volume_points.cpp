@@ -44,7 +44,7 @@ void each_voxel(const Grid& grid, Use use) {
   }
 }
 
-/// One random case: a volume, and points that are hard for some part of the engine.
+/// One random case: a volume or a spaced plane, and points that are hard for some part of the engine.
 struct RandomCase {
   explicit RandomCase(unsigned number) : rng(number), kind(number / 2 % 9) {
     const std::int64_t most = number % 3 == 0 ? 8 : number % 32 == 1 ? 64 : 30;
@@ -57,6 +57,13 @@ struct RandomCase {
     const std::int64_t width = side(), height = side();
     grid = Grid(width, height, 1 + side(), periodic[number % 4]);
     if (number % 4 == 3) grid = Grid(grid.x().spaced(2), grid.y(), grid.z().spaced(3));
+    if (number % 8 == 7) {  // a plane with spacings
+      const auto axis = [&](int spacing, bool is_periodic) {
+        const Axis open = Axis(4 * side()).spaced(spacing);
+        return is_periodic ? open.periodic() : open;
+      };
+      grid = Grid(axis(3, number % 3 == 0), axis(2, number % 9 == 0));
+    }
     make_seeds();
   }
 
@@ -87,6 +94,7 @@ struct RandomCase {
         if (kind == 4 && axis == 2) at = size[axis] / 3;                              // in a plane
         if (kind == 5 && axis != along) at = size[axis] / 2;                          // on a line
         if (kind == 6) at = at / (parts / 4) * (parts / 4);                           // quarters
+        if (grid.depth() == 1 && axis == 2) at = parts / 2;
       }
     }
     if (kind == 7) {  // repeats, and near ties
@@ -104,6 +112,7 @@ struct RandomCase {
         const std::array<double, 3> at = {flat * std::cos(angle), flat * std::sin(angle), u};
         for (std::size_t axis = 0; axis < 3; ++axis)
           seed[axis] = static_cast<std::int64_t>(static_cast<double>(size[axis]) * (0.5 + 0.45 * at[axis]));
+        if (grid.depth() == 1) seed[2] = parts / 2;
       }
     }
   }

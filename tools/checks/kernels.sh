@@ -31,15 +31,16 @@ builds_of() { # KERNEL
     return
   fi
   if [[ $kernel == kernels/exact/*diagram.cl ]]; then  # planes, and Euclidean volumes, with vectors of its own
-    local planes=-DVOROCL_PERIODIC=1 volumes=-DVOROCL_PERIODIC=1
+    local planes=-DVOROCL_PERIODIC=1 volumes=-DVOROCL_PERIODIC=1 flat=-DVOROCL_FLAT
     if [[ $kernel == */group/* ]]; then
-      planes='-DVOROCL_PERIODIC_X -DVOROCL_PERIODIC_Y' volumes="$planes -DVOROCL_PERIODIC_Z"
+      planes='-DVOROCL_PERIODIC_X -DVOROCL_PERIODIC_Y' volumes="$planes -DVOROCL_PERIODIC_Z" flat=
     fi
     for places in -DVOROCL_DIMENSIONS=3 '' "$short_lists"; do  # with weights
       echo "1 -DVOROCL_EUCLIDEAN -DVOROCL_NEIGHBOURS=9 -DVOROCL_FRACTIONS -DVOROCL_WEIGHTED $planes $places"
     done
     for places in '' -DVOROCL_FRACTIONS "-DVOROCL_FRACTIONS $short_lists"; do
-      for axes in '' "$volumes" '-DVOROCL_SPACING_X=2 -DVOROCL_SPACING_Y=1 -DVOROCL_SPACING_Z=4'; do
+      for axes in '' "$volumes" '-DVOROCL_SPACING_X=2 -DVOROCL_SPACING_Y=1 -DVOROCL_SPACING_Z=4' \
+          "-DVOROCL_SPACING_X=2 -DVOROCL_SPACING_Y=3 -DVOROCL_SPACING_Z=1 $volumes $flat"; do
         echo "1 -DVOROCL_EUCLIDEAN -DVOROCL_DIMENSIONS=3 -DVOROCL_NEIGHBOURS=9 $places $axes"
       done
       for metric in EUCLIDEAN MANHATTAN; do
