@@ -97,7 +97,7 @@ NOINLINE static bool gather(const scene_t* scene, box_t box, float4 place, gathe
   do {
     for (; g.from < g.to; g.from += 8) {
       if (some > MOST_IN_LIST - 8) {
-        some = drop_beaten(list, some, box);
+        some = drop_beaten(scene, list, some, box);
         if (some > MOST_IN_LIST / 2) {
           *gathering = g;
           *count = some;
@@ -110,7 +110,7 @@ NOINLINE static bool gather(const scene_t* scene, box_t box, float4 place, gathe
       some = keep(list, some, stays, &p, g.from + as_uint8(EIGHT));
     }
   } while (next_range(scene, &g.walk, centre, &g.from, &g.to, &g.origin));
-  *count = drop_beaten(list, some, box);
+  *count = drop_beaten(scene, list, some, box);
   return true;
 }
 

@@ -19,7 +19,7 @@
 #endif
 #define LIST_ROOM (MOST_IN_LIST + 32)
 #define FEW_PLACES (IS_VOLUME ? 12 : 16)  // are not looked through
-#define MANY_PLACES 128                   // are a crowd
+#define MANY_PLACES (IS_MANHATTAN ? 64 : 128)  // are a crowd
 #define NUMBERS 4096  // of places in a list, as the low bits of what says how near they are
 #if LIST_ROOM > NUMBERS
 #error "A place's number in its list takes more bits than it has"
@@ -425,13 +425,79 @@ NOINLINE static int drop_by_slices(list_t* list, int count, box_t box) {
   return kept;
 }
 
+#else
+
+// By the Manhattan metric all pixels of a box can be as near to one place as to another one, and so to thousands of a
+// diagonal line: the first by the tie rule beats the others. So places drop others in whole numbers: those that are
+// nearest to the corners, and first among these. Leads along each axis fit in an int; their sum is not made.
+
+// The place of a list that wins at a pixel centre, which is (x, y) from the centre of its box.
+typedef struct {
+  int x, y;
+  uint at;
+} first_t;
+static inline first_t first_near(const scene_t* scene, const list_t* list, int count, int x, int y) {
+  const bool by_place = !has_images_of(scene);  // else the tie rule goes by where seeds lie themselves
+  uint8 least = UINT_MAX;
+  int8 best_y = 0, best_x = 0, number = 0;
+  for (int k = 0; k < count; k += 8) {
+    const int8 px = vload8(0, list->x + k), py = vload8(0, list->y + k);
+    const uint8 distance = select((uint8)UINT_MAX, absolute(px - x) + absolute(py - y), as_uint8(EIGHT + k < count));
+    int8 wins = distance < least;
+    if (by_place) wins |= (distance == least) & ((py < best_y) | ((py == best_y) & (px < best_x)));
+    least = select(least, distance, as_uint8(wins)), number = select(number, EIGHT + k, wins);
+    best_y = select(best_y, py, wins), best_x = select(best_x, px, wins);
+  }
+  uint distance[8];
+  int numbers[8], first = 0;
+  store_uints(least, distance), store_ints(number, numbers);
+  for (int i = 1; i < 8; ++i) {
+    const bool is_first =
+        distance[i] < distance[first] || (distance[i] == distance[first] && distance[i] != UINT_MAX &&
+                                          comes_first(scene, list->at[numbers[i]], list->at[numbers[first]]));
+    if (is_first) first = i;
+  }
+  const int found = numbers[first];
+  const first_t place = {list->x[found], list->y[found], list->at[found]};
+  return place;
+}
+
+NOINLINE static int drop_by_firsts(const scene_t* scene, list_t* list, int count, box_t box) {
+  const int sx = (box.sx - 1) * HALF, sy = (box.sy - 1) * HALF;
+  for (int corner = 0; corner < CORNERS; ++corner) {
+    const first_t rival =
+        first_near(scene, list, count, corner % 2 ? sx : -sx, corner / 2 ? sy : -sy);
+    const int west = (int)abs(rival.x + sx), east = (int)abs(rival.x - sx);
+    const int north = (int)abs(rival.y + sy), south = (int)abs(rival.y - sy);
+    int kept = 0;
+    for (int k = 0; k < count; k += 8) {
+      const places8_t p = load_from_list(list, k);
+      const uint8 at = vload8(0, list->at + k);
+      const int8 along_x = min(as_int8(absolute(p.x + sx)) - west, as_int8(absolute(p.x - sx)) - east);
+      const int8 along_y = -min(as_int8(absolute(p.y + sy)) - north, as_int8(absolute(p.y - sy)) - south);
+      uint stays = mask_of((along_x <= along_y) & (EIGHT + k < count));
+      for (uint ties = stays & mask_of(along_x == along_y); ties != 0; ties &= ties - 1) {
+        const uint other = list->at[k + 31 - (int)clz(ties & (0 - ties))];
+        if (other != rival.at && comes_first(scene, rival.at, other)) stays ^= ties & (0 - ties);
+      }
+      kept = keep(list, kept, -((int8)(int)stays >> EIGHT & 1), &p, at);
+    }
+    count = kept;
+  }
+  return count;
+}
+
 #endif
 
 // Drops in place what another place is seen to beat; crowds along a line are looked at slice by slice.
-static inline int drop_beaten(list_t* list, int count, box_t box) {
+static inline int drop_beaten(const scene_t* scene, list_t* list, int count, box_t box) {
   if (count > FEW_PLACES) count = drop_by_corners(list, count, box);
-#if !IS_MANHATTAN
-  if (count > MANY_PLACES) count = drop_by_slices(list, count, box);
+  if (count <= MANY_PLACES) return count;
+#if IS_MANHATTAN
+  count = drop_by_firsts(scene, list, count, box);
+#else
+  count = drop_by_slices(list, count, box);
+  (void)scene;
 #endif
   return count;
 }

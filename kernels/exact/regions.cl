@@ -57,7 +57,8 @@ static inline int children_of(box_t b, int sx, int sy, int sz) {
 }
 
 // Copies to `list` what may win in a box within another one.
-NOINLINE static int narrow(const list_t* from, int count, box_t outer, box_t box, list_t* list) {
+NOINLINE static int narrow(const scene_t* scene, const list_t* from, int count, box_t outer, box_t box,
+                           list_t* list) {
   const int4 way = centre_of(box) - centre_of(outer);
   int8 nearest = INT_MAX;
   for (int k = 0; k < count; k += 8) {
@@ -65,7 +66,7 @@ NOINLINE static int narrow(const list_t* from, int count, box_t outer, box_t box
   }
   const float4 place = place_in(from, number_of(nearest)) - convert_float4(way);
   count = drop_by(from, count, list, way, place, box);
-  return drop_beaten(list, count, box);
+  return drop_beaten(scene, list, count, box);
 }
 
 static inline bool label_if_one(const scene_t* scene, const list_t* list, int count, box_t b) {
@@ -116,7 +117,7 @@ NOINLINE static void label_box(const scene_t* scene, box_t box, const list_t* li
   for (int i = 0; i < children_of(box, PART_X, PART_Y, PART_Z); ++i) {
     const box_t part = child_of(box, i, PART_X, PART_Y, PART_Z);
     if (!is_in_grid(scene, part)) continue;
-    const int some = narrow(list, count, box, part, &lists->of_part);
+    const int some = narrow(scene, list, count, box, part, &lists->of_part);
     label_part(scene, part, &lists->of_part, some);
   }
 }
@@ -127,7 +128,7 @@ NOINLINE static void label_tile(const scene_t* scene, box_t tile, const list_t* 
   for (int i = 0; i < children_of(tile, side, BOX_Y, BOX_Z); ++i) {
     const box_t box = child_of(tile, i, side, BOX_Y, BOX_Z);
     if (!is_in_grid(scene, box)) continue;
-    const int some = narrow(list, count, tile, box, &lists->of_box);
+    const int some = narrow(scene, list, count, tile, box, &lists->of_box);
     label_box(scene, box, &lists->of_box, some, lists);
   }
 }
@@ -137,7 +138,7 @@ NOINLINE static void label_region(const scene_t* scene, box_t region, const list
   for (int i = 0; i < children_of(region, TILE, TILE, TILE_Z); ++i) {
     const box_t tile = child_of(region, i, TILE, TILE, TILE_Z);
     if (!is_in_grid(scene, tile)) continue;
-    const int some = narrow(list, count, region, tile, &lists->of_tile);
+    const int some = narrow(scene, list, count, region, tile, &lists->of_tile);
     label_tile(scene, tile, &lists->of_tile, some, lists);
   }
 }

@@ -254,7 +254,7 @@ BOOST_AUTO_TEST_CASE(crowds_along_lines) {
       const double along = (i + 0.5) / 32;
       points.emplace_back(Point{along, 75 + slope * (along - 75)});
     }
-    for (const Metric metric : both_metrics) {
+    for (const Metric metric : both_metrics) {  // the sums of x and y of hundreds are the same
       const Labels expected = labels_by_definition(grid, positions_of(grid, points), metric);
       for (const Engine& engine : engines_of(metric)) {
         BOOST_TEST(count_differences(labels_of(engine, grid, points, metric), expected) == 0u,
