@@ -135,7 +135,8 @@ PointPlacement placement_of(const Window& window, const PixelGrid& shown, const 
           seeds,
           {},
           static_cast<cl_uint>(count),
-          {{as_int(region.left), as_int(region.top), as_int(region.right), as_int(region.bottom)}},
+          {{as_int(region.left), as_int(region.top), 0}},
+          {{as_int(region.right), as_int(region.bottom), shown.depth() - 1}},
           {{as_int(periods.x), as_int(periods.y), as_int(window.grid().shift()), 0}}};
 }
 

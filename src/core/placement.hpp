@@ -49,8 +49,8 @@ struct PointPlacement {
   cl::Buffer places;  // int2: those seeds and images that may own a pixel
   cl::Buffer ids;     // of their seeds; null: they are the seeds
   cl_uint count = 0;  // of places
-  cl_int4 region{};   // the pixels that get labels: left, top, right, bottom
-  cl_int4 periods{};  // in pixels, 0 along an axis that is not periodic; and the tilt, in fractions
+  cl_int4 first{}, last{};  // of the pixels that get labels: x, y and z
+  cl_int4 periods{};        // in pixels, 0 along an axis that is not periodic; and the tilt, in fractions
 
   // Where seeds at the centres of pixels are too far away for fractions, all seeds, or places, are in pixels.
   bool seeds_in_pixels = false, places_in_pixels = false;

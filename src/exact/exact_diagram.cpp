@@ -26,32 +26,14 @@ struct PlacesWorkspace {
 };
 
 /// What is labelled: places with their images, or seeds at the centres of the grid's pixels.
-struct Places {
-  PixelGrid grid;
-  cl::Buffer given, ids, order;
-  bool have_ids;
-  cl_uint count;
-  cl_int4 first, last;  // of the pixels that get labels
-  bool in_pixels;       // see PointPlacement
-};
-
-Places places_of(Filling& filling) {
+PointPlacement places_of(Filling& filling) {
+  if (filling.takes_places()) return filling.take_places();
   const PixelGrid& grid = filling.placement().grid;
-  if (filling.takes_places() && !grid.has_voxels()) {
-    const PointPlacement& points = filling.take_places();
-    const bool have_ids = points.ids() != nullptr;
-    const auto& [left, top, right, bottom] = points.region.s;
-    return {points.grid,   points.places,     have_ids ? points.ids : points.places,
-            points.order,  have_ids,          points.count,
-            {{left, top}}, {{right, bottom}}, points.places_in_pixels};
-  }
-  const cl::Buffer& given =
-      filling.takes_places() ? filling.take_places().seeds : *filling.placement().positions;
-  return {grid,  given,
-          given, given,
-          false, static_cast<cl_uint>(filling.seeds().size),
-          {},    {{grid.width() - 1, grid.height() - 1, grid.depth() - 1}},
-          false};
+  const cl::Buffer& centres = *filling.placement().positions;
+  return {grid,    centres,
+          centres, centres,
+          {},      static_cast<cl_uint>(filling.seeds().size),
+          {},      {{grid.width() - 1, grid.height() - 1, grid.depth() - 1}}};
 }
 
 std::size_t boxes_along(int pixels, int side) { return static_cast<std::size_t>((pixels - 1) / side) + 1; }
@@ -81,18 +63,21 @@ std::size_t chunks_of(std::size_t seeds) { return seeds < 4096 ? 1 : seeds < 655
 
 /// Labels the diagram by lists of places and by stamps (kernels/exact).
 Report exact_diagram_by_places(Filling& filling, DiagramState& state) {
-  const auto [grid, given, given_ids, order, have_ids, count, first, last, in_pixels] = places_of(filling);
+  const PointPlacement given = places_of(filling);
+  const PixelGrid& grid = given.grid;
+  const cl_uint count = given.count;
+  const cl_int has_ids = given.ids() != nullptr;
+  const cl::Buffer& given_ids = has_ids != 0 ? given.ids : given.places;
   const Device device = without_vectors(state.device);  // kernels have vectors of their own
-  if (in_pixels) {
+  if (given.places_in_pixels) {
     const cl::Event done =
         state.kernels
             .get(device, "exact/far.cl", "label_far", grid,
                  {filling.metric(), Neighbourhood::moore, Extent::far})
-            .over_items(grid.pixels(), given, given_ids, order, count,
-                        cl_int4{{grid.width(), grid.height(), 1, 0}}, first, last, state.labels);
+            .over_items(grid.pixels(), given.places, given_ids, given.order, count,
+                        cl_int4{{grid.width(), grid.height(), 1, 0}}, given.first, given.last, state.labels);
     return filling.commit(0, done, done);
   }
-  const cl_int has_ids = have_ids;
   const cl_int4 size = {{grid.width(), grid.height(), grid.depth(), static_cast<cl_int>(grid.periodic())}};
   const cl_int4 bits = bits_of_bins(grid, count);
   const auto bins_along = [&](int axis) { return boxes_along(size.s[axis], 1 << bits.s[axis]); };
@@ -116,9 +101,9 @@ Report exact_diagram_by_places(Filling& filling, DiagramState& state) {
   if (filling.takes_places()) options.extent = Extent::fractions;
   options.weighted = weighted != nullptr;
   options.any_axes = !in_groups;
-  const auto kernel = [&, &of_grid = grid](const char* name, std::size_t items_of_group) -> Kernel& {
+  const auto kernel = [&](const char* name, std::size_t items_of_group) -> Kernel& {
     return state.kernels
-        .get(device, in_groups ? "exact/group/diagram.cl" : "exact/diagram.cl", name, of_grid, options)
+        .get(device, in_groups ? "exact/group/diagram.cl" : "exact/diagram.cl", name, grid, options)
         .in_groups_of(items_of_group);
   };
   if (in_groups) {
@@ -135,20 +120,20 @@ Report exact_diagram_by_places(Filling& filling, DiagramState& state) {
     const cl::Event begin = fill(state.device, starts, cl_uint{0}, entries + 1);
     fill(state.device, table, ~cl_uint{0}, of_table);
     kernel("find_repeats", group)
-        .over_items(items_of_places, given, given_ids, has_ids, of_seeds, count, table_bits, table);
+        .over_items(items_of_places, given.places, given_ids, has_ids, of_seeds, count, table_bits, table);
     kernel("count_places", group)
-        .over_items(items_of_places, given, table_bits, table, count, bits, size, starts);
+        .over_items(items_of_places, given.places, table_bits, table, count, bits, size, starts);
     kernel("start_bins", items_of_row).over_items(rows * items_of_row, starts, bits, size);
     kernel("list_places", group)
-        .over_items(items_of_places, given, table_bits, table, count, bits, size, of_seeds, starts, x, y,
-                    of_z, ids, of_lags);
+        .over_items(items_of_places, given.places, table_bits, table, count, bits, size, of_seeds, starts, x,
+                    y, of_z, ids, of_lags);
     // Lambdas take no structured bindings but by names of their own.
-    const auto label = [&, &of_starts = starts, &of_x = x, &of_y = y, &of_ids = ids, &of_order = order,
-                        of_first = first, of_last = last](const char* name, std::size_t items_of_group,
-                                                          std::size_t groups, const auto&... more) {
+    const auto label = [&, &of_starts = starts, &of_x = x, &of_y = y, &of_ids = ids](
+                           const char* name, std::size_t items_of_group, std::size_t groups,
+                           const auto&... more) {
       return kernel(name, items_of_group)
-          .over_items(groups * items_of_group, of_starts, of_x, of_y, of_z, of_ids, of_lags, of_order,
-                      has_ids, bits, size, of_first, of_last, state.labels, more...);
+          .over_items(groups * items_of_group, of_starts, of_x, of_y, of_z, of_ids, of_lags, given.order,
+                      has_ids, bits, size, given.first, given.last, state.labels, more...);
     };
     const std::size_t items = device.tuning().patch_items,
                       items_of_crowd = std::min<std::size_t>(items, MOST_OF_CROWD_ITEMS);
@@ -178,18 +163,20 @@ Report exact_diagram_by_places(Filling& filling, DiagramState& state) {
   while ((rows - 1) >> shift >= BUCKETS) ++shift;
   // Work-items that do much each: small groups spread them over the compute units.
   const cl::Event begin =
-      kernel("count_chunks", 1).over_items(chunks, given, count, chunk_count, bits, size, shift, counts);
+      kernel("count_chunks", 1)
+          .over_items(chunks, given.places, count, chunk_count, bits, size, shift, counts);
   kernel("sum_chunks", 1).over_items(1, chunk_count, counts, ends);
   kernel("sort_chunks", 1)
-      .over_items(chunks, given, given_ids, has_ids, count, chunk_count, bits, size, shift, counts, sorted);
+      .over_items(chunks, given.places, given_ids, has_ids, count, chunk_count, bits, size, shift, counts,
+                  sorted);
   kernel("sort_buckets", 1)
       .over_items(BUCKETS, sorted, bits, size, shift, ends, of_seeds, starts, x, y, of_z, ids, of_lags);
   const int side = have_z ? SIDE_OF_VOLUME : SIDE_OF_PLANE;
   const std::size_t items =
       boxes_along(grid.width(), side) * boxes_along(grid.height(), side) * boxes_along(grid.depth(), side);
   const cl::Event end = kernel("label_regions", 1)
-                            .over_items(items, starts, x, y, of_z, ids, of_lags, order, has_ids, bits, size,
-                                        first, last, state.labels);
+                            .over_items(items, starts, x, y, of_z, ids, of_lags, given.order, has_ids, bits,
+                                        size, given.first, given.last, state.labels);
   return filling.commit(0, begin, end);
 }
 
