@@ -374,7 +374,7 @@ NOINLINE static int drop_by_slices(list_t* list, int count, box_t box) {
 #else
   const int* const along[3] = {list->x, list->y, list->x};
 #endif
-  // The axis along which the places lie farthest apart: this pays where they lie along a line.
+  // The axis along which the places lie farthest apart: this pays where they lie along an axis.
   int axis = 0, longest = -1, next = -1;
   for (int i = 0; i < AXES_OF_PLACES; ++i) {
     const extent_t extent = extent_of(along[i], count);
@@ -431,13 +431,14 @@ NOINLINE static int drop_by_slices(list_t* list, int count, box_t box) {
 // diagonal line: the first by the tie rule beats the others. So places drop others in whole numbers: those that are
 // nearest to the corners, and first among these. Leads along each axis fit in an int; their sum is not made.
 
-// The place of a list that wins at a pixel centre, which is (x, y) from the centre of its box.
+// The place of a list that wins at a pixel centre, which is (x, y) from the centre of its box. Where seeds have images it
+// is one of those that are as near: it drops fewer others.
 typedef struct {
   int x, y;
   uint at;
 } first_t;
 static inline first_t first_near(const scene_t* scene, const list_t* list, int count, int x, int y) {
-  const bool by_place = !has_images_of(scene);  // else the tie rule goes by where seeds lie themselves
+  const bool by_place = !has_images_of(scene);  // as the tie rule goes
   uint8 least = UINT_MAX;
   int8 best_y = 0, best_x = 0, number = 0;
   for (int k = 0; k < count; k += 8) {
@@ -489,7 +490,7 @@ NOINLINE static int drop_by_firsts(const scene_t* scene, list_t* list, int count
 
 #endif
 
-// Drops in place what another place is seen to beat; crowds along a line are looked at slice by slice.
+// Drops in place what another place is seen to beat; crowds are looked at once more.
 static inline int drop_beaten(const scene_t* scene, list_t* list, int count, box_t box) {
   if (count > FEW_PLACES) count = drop_by_corners(list, count, box);
   if (count <= MANY_PLACES) return count;

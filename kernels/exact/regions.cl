@@ -11,7 +11,7 @@
 // Sides of boxes. A work-item has a region of a volume, or a tile of a plane; the first tile's has the whole
 // region where that has few places.
 #if IS_VOLUME
-#define IS_LONG (2 * SPACING_Z >= 5 * SPACING_X)  // voxels along z
+#define IS_LONG (2 * SPACING_Z >= 5 * SPACING_X)  // so are voxels, along z
 #define REGION SIDE_OF_VOLUME
 #define TILE 16
 #define BOX_X 16

@@ -31,8 +31,8 @@
 #define COSTS(size) (2 * REACH_OF_COSTS(size) + 1)
 
 // Along z a row of so many strips is read and written together: slices lie far apart, and memory gives lines of the
-// cache that lie beside each other in half the time. Longer lines are taken strip by strip: working memory would leave
-// the caches.
+// cache that lie beside each other in half the time. Images that are higher or deeper are taken strip by strip: working
+// memory would leave the caches.
 #define MOST_AT_ONCE 4
 #define LONGEST_AT_ONCE 1024
 

@@ -179,7 +179,7 @@ void SeedsState::place(const Grid& grid, const Points& points) {
       to[1] = point.y;
       if (dimensions > 2) to[2] = point.z;
     }
-    if (snapping.are_sure(here, to, given.dimensions)) continue;
+    if (snapping.are_surely_inside(here, to, given.dimensions)) continue;
     for (std::size_t id = first; id < end; ++id) {
       const Snapping::Where where =
           points.is_present(id) ? snapping.find(id, point_on(grid, points, id)) : Snapping::Where::absent;

@@ -86,8 +86,9 @@ class Snapping {
     return std::isfinite(point.x) && std::isfinite(point.y) && std::isfinite(point.z);
   }
 
-  /// Whether points of so many numbers each lie where find() need not look twice: inside.
-  bool are_sure(const double* numbers, const double* end, int dimensions) const {
+  /// Whether find() would say of all these points, of so many numbers each, that they are inside. False does
+  /// not say that one is not.
+  bool are_surely_inside(const double* numbers, const double* end, int dimensions) const {
     bool all = true;
     for (; numbers != end; numbers += dimensions) {
       all &= sure_[0].holds(numbers[0]) & sure_[1].holds(numbers[1]);

@@ -101,7 +101,8 @@ MaskEngine::Pass MaskEngine::make_pass(int size, std::int64_t square, std::int64
 }
 
 int MaskEngine::strips_at_once() const {
-  return shape_.depth > 1 && std::max(shape_.height, shape_.depth) <= LONGEST_AT_ONCE ? MOST_AT_ONCE : 1;
+  const bool is_short = std::max(shape_.height, shape_.depth) <= LONGEST_AT_ONCE;
+  return shape_.depth > 1 && is_short ? std::min(MOST_AT_ONCE, STRIPS_OF(shape_.width)) : 1;
 }
 
 int MaskEngine::carried_for(const NearestTargets& targets) const {
