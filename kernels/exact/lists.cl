@@ -431,8 +431,8 @@ NOINLINE static int drop_by_slices(list_t* list, int count, box_t box) {
 // diagonal line: the first by the tie rule beats the others. So places drop others in whole numbers: those that are
 // nearest to the corners, and first among these. Leads along each axis fit in an int; their sum is not made.
 
-// The place of a list that wins at a pixel centre, which is (x, y) from the centre of its box. Where seeds have images it
-// is one of those that are as near: it drops fewer others.
+// The place of a list that wins at a pixel centre, which is (x, y) from the centre of its box. Where seeds have images
+// it is one of those that are as near: it drops fewer others.
 typedef struct {
   int x, y;
   uint at;
