@@ -16,7 +16,8 @@ struct SeedBlock {
   std::uint32_t count = 0;  // of the seeds
 };
 
-class BlockTree {
+/// An index for find_nearest() of NearSeeds, of the samples.
+class BlockTree : public SeedBoxes {
  public:
   explicit BlockTree(const Grid& grid) : grid_(grid) {}
 
@@ -30,17 +31,15 @@ class BlockTree {
   /// About how many seeds lie in a rectangle: as if they were spread evenly in each box.
   double expected(const PlaneRectangle& rectangle) const;
 
+  /// The one that is known of a block.
+  const PlaneSeed& seed(std::size_t block) const { return blocks_[block].sample; }
+
  private:
-  /// The image of the seed that is known of a block, as it is seen from a point.
-  SeedImage sample(std::size_t block, const Place& offset, const Place& from,
-                   const PlaneDistance& distance) const;
-  SeedImage nearest_sample(const Place& point, Metric metric) const;
   bool find_between(const Place& a, const SeedImage& at_a, const Place& b, const SeedImage& at_b,
                     Metric metric, std::size_t most, std::vector<std::size_t>& found) const;
 
   Grid grid_;
   std::vector<SeedBlock> blocks_;
-  SeedBoxes tree_;
 };
 
 }  // namespace vorocl

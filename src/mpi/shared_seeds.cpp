@@ -2,7 +2,6 @@
 #include <exception>
 #include <list>
 #include <numeric>
-#include <string>
 #include <tuple>
 #include <unordered_map>
 #include <utility>

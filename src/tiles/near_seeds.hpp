@@ -49,6 +49,31 @@ class NearSeeds {
     seeds.erase(std::unique(seeds.begin(), seeds.end(), same), seeds.end());
   }
 
+  /// Makes `best` the image that wins at a point, if it does not yet.
+  void find_nearest(const Place& point, SeedImage& best) const {
+    const PlaneDistance distance(grid_, metric_);
+    each_image(grid_, [&](const Place& offset) {
+      const Place from = point - offset;
+      const auto to_box = [&](const Box& box) { return distance(from, box); };
+      const auto counts = [&](const Box& box, PlaneLength away) {
+        return away != too_far && first_in(box, away).wins(best);
+      };
+      index_.visit_nearest_first(to_box, counts, [&](std::size_t number) {
+        const Place place = place_of(index_.seed(number));
+        const SeedImage image = {number, offset, distance(from, place), place};
+        if (image.distance != too_far && image.wins(best)) best = image;
+      });
+    });
+  }
+
+  /// The image as it is seen from another point.
+  SeedImage seen_from(const Place& point, SeedImage image) const {
+    // It may be farther away than half a period, though not far.
+    const PlaneDistance distance(grid_, metric_, in_fractions(grid_.width() + grid_.height()));
+    image.distance = distance(point, image.seed + image.offset);
+    return image;
+  }
+
  private:
   void find(const PlaneRectangle& rectangle, std::vector<PlaneSeed>& seeds) const {
     index_.find_inside(rectangle, seeds);
@@ -74,31 +99,6 @@ class NearSeeds {
       const PlaneSeed seed = index_.seed(number);
       if (!holds(rectangle, seed.x, seed.y)) seeds.push_back(seed);
     }
-  }
-
-  /// Makes `best` the image that wins at a point, if it does not yet.
-  void find_nearest(const Place& point, SeedImage& best) const {
-    const PlaneDistance distance(grid_, metric_);
-    each_image(grid_, [&](const Place& offset) {
-      const Place from = point - offset;
-      const auto to_box = [&](const Box& box) { return distance(from, box); };
-      const auto counts = [&](const Box& box, PlaneLength away) {
-        return away != too_far && first_in(box, away).wins(best);
-      };
-      index_.visit_nearest_first(to_box, counts, [&](std::size_t number) {
-        const Place place = place_of(index_.seed(number));
-        const SeedImage image = {number, offset, distance(from, place), place};
-        if (image.distance != too_far && image.wins(best)) best = image;
-      });
-    });
-  }
-
-  /// The image as it is seen from another point.
-  SeedImage seen_from(const Place& point, SeedImage image) const {
-    // It may be farther away than half a period, though not far.
-    const PlaneDistance distance(grid_, metric_, in_fractions(grid_.width() + grid_.height()));
-    image.distance = distance(point, image.seed + image.offset);
-    return image;
   }
 
   /// Appends the seeds outside a rectangle that win somewhere on an axis-parallel line from a to b, and some

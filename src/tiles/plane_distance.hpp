@@ -15,8 +15,33 @@
 
 namespace vorocl {
 
-/// Boxes around seeds, or around blocks of them.
-using SeedBoxes = BoxTree<4>;
+/// Boxes around seeds, or around blocks of them, in an index for NearSeeds.
+class SeedBoxes {
+ public:
+  /// See NearSeeds.
+  template <typename Enters, typename Use>
+  bool visit(Enters enters, Use use) const {
+    const auto judge = [&](const Box& box) {
+      return enters(box) ? Boxes::Verdict::enter : Boxes::Verdict::pass;
+    };
+    return boxes_.visit(judge, [&](std::size_t first, std::size_t end, bool) {
+      for (std::size_t i = first; i < end; ++i) {
+        if (!use(i)) return false;
+      }
+      return true;
+    });
+  }
+  template <typename Distance, typename Counts, typename Use>
+  void visit_nearest_first(Distance distance, Counts counts, Use use) const {
+    boxes_.visit_nearest_first(distance, counts, [&](std::size_t first, std::size_t end) {
+      for (std::size_t i = first; i < end; ++i) use(i);
+    });
+  }
+
+ protected:
+  using Boxes = BoxTree<4>;
+  Boxes boxes_;
+};
 
 /// A squared distance in fractions of a pixel does not fit 64 bits.
 using PlaneLength = Int128;

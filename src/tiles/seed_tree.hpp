@@ -14,7 +14,7 @@
 namespace vorocl {
 
 /// 13 bytes a seed, 17 where seeds are not snapped.
-class SeedTree {
+class SeedTree : public SeedBoxes {
  public:
   explicit SeedTree(Snap snap) : has_parts_(snap == Snap::none) {}
 
@@ -39,26 +39,6 @@ class SeedTree {
   /// Appends the seeds in a rectangle.
   void find_inside(const PlaneRectangle& rectangle, std::vector<PlaneSeed>& found) const;
 
-  /// See NearSeeds.
-  template <typename Enters, typename Use>
-  bool visit(Enters enters, Use use) const {
-    const auto judge = [&](const Box& box) {
-      return enters(box) ? SeedBoxes::Verdict::enter : SeedBoxes::Verdict::pass;
-    };
-    return boxes_.visit(judge, [&](std::size_t first, std::size_t end, bool) {
-      for (std::size_t i = first; i < end; ++i) {
-        if (!use(i)) return false;
-      }
-      return true;
-    });
-  }
-  template <typename Distance, typename Counts, typename Use>
-  void visit_nearest_first(Distance distance, Counts counts, Use use) const {
-    boxes_.visit_nearest_first(distance, counts, [&](std::size_t first, std::size_t end) {
-      for (std::size_t i = first; i < end; ++i) use(i);
-    });
-  }
-
  private:
   void sort_places();
   void sort_within_pixels();
@@ -73,7 +53,6 @@ class SeedTree {
   std::vector<std::uint64_t> places_;  // on the Z-curve; once they are in order, y and x
   std::vector<std::uint32_t> ids_;
   std::vector<std::uint32_t> parts_;  // within the pixels, those of y above those of x; none: the centres
-  SeedBoxes boxes_;
 };
 
 }  // namespace vorocl
