@@ -1,7 +1,6 @@
 #include "formats/csv.hpp"
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <limits>
 #include <set>
@@ -29,12 +28,6 @@ struct Line {
     return reader.error(what + ": " + shown);
   }
 };
-
-std::string lower(std::string text) {
-  std::transform(text.begin(), text.end(), text.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return text;
-}
 
 std::optional<std::size_t> index_of(const Fields& header, const std::string& name) {
   const auto exact = std::find(header.begin(), header.end(), name);

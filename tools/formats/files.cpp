@@ -5,7 +5,7 @@
 #include <cerrno>
 #include <system_error>
 
-#include "vorocl/error.hpp"
+#include "formats/values.hpp"
 
 namespace vorocl::command {
 
@@ -47,12 +47,7 @@ bool gives(const std::string& pattern, const std::string& path) {
 
 }  // namespace
 
-std::string extension_of(const std::string& path) {
-  std::string extension = fs::path(path).extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return extension;
-}
+std::string extension_of(const std::string& path) { return lower(fs::path(path).extension().string()); }
 
 void check_extension(const std::string& path, const std::vector<std::string>& extensions) {
   if (std::find(extensions.begin(), extensions.end(), extension_of(path)) != extensions.end()) return;
@@ -95,6 +90,10 @@ SteadyFile::State SteadyFile::now() const {
 bool may_be_one_file(const std::string& a, const std::string& b) {
   const std::string whole_a = whole_path(a), whole_b = whole_path(b);
   return !whole_a.empty() && (whole_a == whole_b || gives(whole_a, whole_b) || gives(whole_b, whole_a));
+}
+
+Error failed(const std::string& what, const std::string& path) {
+  return Error(what + " " + path + " failed: " + reason(errno));
 }
 
 std::string reason(int code) { return std::generic_category().message(code); }

@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "vorocl/error.hpp"
+
 namespace vorocl::command {
 
 /// The path's extension in lower case, with its dot: ".npy".
@@ -43,7 +45,13 @@ class SteadyFile {
 /// nowhere.
 bool may_be_one_file(const std::string& a, const std::string& b);
 
+/// The most bytes that Deflate makes of one.
+constexpr std::uint64_t greatest_compression = 1032;
+
 /// What the system's error code means: "No space left on device".
 std::string reason(int code);
+
+/// For what the last system call said: "writing a.csv failed: No space left on device".
+Error failed(const std::string& what, const std::string& path);
 
 }  // namespace vorocl::command

@@ -1,7 +1,6 @@
 #include "formats/npy.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <cstring>
 #include <fstream>
 #include <functional>

@@ -28,11 +28,6 @@ Error cannot_write(const std::string& path, const std::string& why) {
   return Error("cannot write " + path + ": " + why);
 }
 
-/// For what the last system call said.
-Error failed_to_write(const std::string& path) {
-  return Error("writing " + path + " failed: " + reason(errno));
-}
-
 /// Writes all bytes by `call`, which is given what is left of them. False, with errno, if that fails.
 template <typename Call>
 bool write_by(const Call& call, const char* bytes, std::size_t count) {
@@ -201,9 +196,9 @@ void GrowingFile::write(const void* bytes, std::size_t count) {
 std::size_t GrowingFile::sync() {
   flush();
   const off_t bytes = lseek(descriptor_, 0, SEEK_CUR);
-  if (bytes < 0) throw failed_to_write(path_);
+  if (bytes < 0) throw failed("writing", path_);
   if (fsync(descriptor_) != 0 && errno != EINVAL)
-    throw failed_to_write(path_);  // EINVAL: cannot be asked there
+    throw failed("writing", path_);  // EINVAL: cannot be asked there
   return static_cast<std::size_t>(bytes);
 }
 
@@ -211,11 +206,11 @@ void GrowingFile::finish() {
   const std::string name = name_ ? name_->path() : part_;
   if (marked_ >= 0) {
     buffer_.clear();
-    if (ftruncate(descriptor_, marked_) != 0) throw failed_to_write(path_);
+    if (ftruncate(descriptor_, marked_) != 0) throw failed("writing", path_);
   }
   // What a disk or a server refuses late, it refuses here: before the file has its name.
   name.empty() ? flush() : static_cast<void>(sync());
-  if (close(std::exchange(descriptor_, -1)) != 0) throw failed_to_write(path_);
+  if (close(std::exchange(descriptor_, -1)) != 0) throw failed("writing", path_);
   if (name.empty()) return;
   if (rename(name.c_str(), target_.c_str()) != 0) throw cannot_write(path_, reason(errno));
   name_.reset();
@@ -231,7 +226,7 @@ void GrowingFile::flush() {
 }
 
 void GrowingFile::write_now(const char* bytes, std::size_t count) {
-  if (!write_all(descriptor_, bytes, count)) throw failed_to_write(path_);
+  if (!write_all(descriptor_, bytes, count)) throw failed("writing", path_);
 }
 
 void append_to_file(const std::string& path, std::string_view text) {
@@ -239,7 +234,7 @@ void append_to_file(const std::string& path, std::string_view text) {
   struct stat before = {};
   if (file < 0 || fstat(file, &before) != 0) throw cannot_write(path, reason(errno));
   const bool is_whole = write_all(file, text.data(), text.size()) && fsync(file) == 0;
-  const Error error = failed_to_write(path);
+  const Error error = failed("writing", path);
   if (!is_whole) static_cast<void>(ftruncate(file, before.st_size) == 0);  // the error says enough
   close(file);
   if (!is_whole) throw error;

@@ -30,10 +30,7 @@ void add(GrowingFile& file, const fmt::memory_buffer& text) {
   file << std::string_view(text.data(), text.size());
 }
 
-const std::vector<std::string>& own_columns() {
-  static const std::vector<std::string> all = {"id", "x", "y", "area", "neighbours"};
-  return all;
-}
+const std::vector<std::string> own_columns = {"id", "x", "y", "area", "neighbours"};
 
 std::string json_text(const std::string& text) {
   return nlohmann::json(text).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
@@ -82,7 +79,7 @@ void write_geojson(GrowingFile& file, const std::vector<PolygonCell>& cells,
   }
   file << "\"features\":[";
   std::vector<std::string> names;
-  for (const std::string& name : other_names(kept, own_columns())) names.push_back(json_text(name));
+  for (const std::string& name : other_names(kept, own_columns)) names.push_back(json_text(name));
   fmt::memory_buffer text;
   for (const PolygonCell& cell : cells) {
     text.clear();
@@ -116,7 +113,7 @@ void write_geojson(GrowingFile& file, const std::vector<PolygonCell>& cells,
 }
 
 void write_wkt(GrowingFile& file, const std::vector<PolygonCell>& cells, const CsvFields& kept) {
-  CsvFields names = own_columns();
+  CsvFields names = own_columns;
   names.emplace_back("wkt");
   const CsvFields others = other_names(kept, names);
   names.insert(names.end(), others.begin(), others.end());
@@ -169,7 +166,7 @@ class VtkArrays {
     }
     std::string elements =
         add("UInt32", "id", ids) + add("Float64", measure, areas) + add("UInt32", "neighbours", neighbours);
-    const CsvFields names = other_names(kept, own_columns());
+    const CsvFields names = other_names(kept, own_columns);
     for (std::size_t i = 0; i < names.size(); ++i) {
       std::vector<double> numbers;
       for (const PolygonCell& cell : cells) {
@@ -187,19 +184,9 @@ class VtkArrays {
   /// The file, of such a kind, with a piece of such sizes and elements.
   void write(GrowingFile& file, const char* kind, const std::string& sizes,
              const std::string& elements) const {
-    file << fmt::format(
-        R"(<?xml version="1.0"?>
-<VTKFile type="{0}" version="1.0" byte_order="{1}" header_type="UInt64">
-  <{0}>
-    <Piece {2}>
-      {3}
-    </Piece>
-  </{0}>
-  <AppendedData encoding="raw">
-    _)",
-        kind, byte_order(), sizes, elements);
+    begin_vtk(file, kind, "", sizes, elements);
     file.write(bytes_.data(), bytes_.size());
-    file << "\n  </AppendedData>\n</VTKFile>\n";
+    file << end_of_vtk;
   }
 
  private:
@@ -241,14 +228,9 @@ void write_vtp(GrowingFile& file, const std::vector<PolygonCell>& cells, const C
 
 }  // namespace
 
-const std::vector<std::string>& polygon_extensions() {
-  static const std::vector<std::string> all = {".geojson", ".json", ".csv", ".vtp", polyhedra_extension};
-  return all;
-}
-
 void write_polygons(const OutputFile& file, const std::vector<PolygonCell>& cells,
                     const PolygonFileOptions& options) {
-  check_extension(file.path(), polygon_extensions());
+  check_extension(file.path(), polygon_extensions);
   const std::string extension = extension_of(file.path());
   GrowingFile growing(file);
   if (extension == ".csv") {

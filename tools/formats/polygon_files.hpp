@@ -26,8 +26,9 @@ struct PolygonCell {
 };
 
 /// All, with that of polyhedra.
-const std::vector<std::string>& polygon_extensions();
 constexpr const char* polyhedra_extension = ".vtu";
+inline const std::vector<std::string> polygon_extensions = {".geojson", ".json", ".csv", ".vtp",
+                                                            polyhedra_extension};
 
 /// What a file of polygons says besides these.
 struct PolygonFileOptions {

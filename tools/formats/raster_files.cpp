@@ -12,23 +12,8 @@
 
 namespace vorocl::command {
 
-const std::vector<std::string>& readable_label_extensions() {
-  static const std::vector<std::string> all = {".npy", ".tif", ".tiff"};
-  return all;
-}
-
-const std::vector<std::string>& label_extensions() {
-  static const std::vector<std::string> all = {".npy", ".tif", ".tiff", ".vti"};
-  return all;
-}
-
-const std::vector<std::string>& volume_extensions() {
-  static const std::vector<std::string> all = {".npy", ".vti"};
-  return all;
-}
-
 LabelImage read_labels(const std::string& path) {
-  check_extension(path, readable_label_extensions());
+  check_extension(path, readable_label_extensions);
   const std::unique_ptr<ImageRows> rows = open_image(path);
   const ImageInfo& info = rows->info();
   if (info.type[0] == 'f' || info.bands > 1) {
@@ -56,8 +41,7 @@ template <typename T>
 void write_pixels(const OutputFile& file, const std::string& name, const Raster& raster,
                   const std::vector<T>& values) {
   const std::string extension = extension_of(file.path());
-  check_extension(file.path(),
-                  raster.is_volume() || sizeof(T) < 4 ? volume_extensions() : label_extensions());
+  check_extension(file.path(), raster.is_volume() || sizeof(T) < 4 ? volume_extensions : label_extensions);
   if (extension == ".npy") {
     write_npy(file, raster, values);
   } else if (extension == ".vti") {

@@ -13,8 +13,8 @@
 namespace vorocl::command {
 
 /// The extensions of files that labels can be read from, and written to.
-const std::vector<std::string>& readable_label_extensions();
-const std::vector<std::string>& label_extensions();
+inline const std::vector<std::string> readable_label_extensions = {".npy", ".tif", ".tiff"};
+inline const std::vector<std::string> label_extensions = {".npy", ".tif", ".tiff", ".vti"};
 
 /// Whole numbers of any type that fit in 32 bits; negative ones, such as -1 for no_label, have the bits of
 /// one with a sign. Those of a volume from .npy alone. Throws Error if the file cannot be read or holds
@@ -22,14 +22,14 @@ const std::vector<std::string>& label_extensions();
 LabelImage read_labels(const std::string& path);
 
 /// The extensions of files that values of a volume can be written to.
-const std::vector<std::string>& volume_extensions();
+inline const std::vector<std::string> volume_extensions = {".npy", ".vti"};
 
 /// Throws Error if the name ends in no such extension, or the file cannot be written.
 void write_labels(const OutputFile& file, const Raster& raster, const std::vector<std::uint32_t>& labels);
 
 /// Values (uint8, uint32 or float), row-major, slice after slice; a .vti file calls them by the name, and
 /// with .tif files knows where the raster lies. Throws Error if the extension is none of these, or for
-/// volumes none of volume_extensions(), or the file cannot be written.
+/// volumes none of volume_extensions, or the file cannot be written.
 template <typename T>
 void write_pixels(const OutputFile& file, const std::string& name, const Raster& raster,
                   const std::vector<T>& values);
@@ -54,8 +54,12 @@ template <typename T>
 void write_vti(const OutputFile& file, const std::string& name, const Raster& raster,
                const std::vector<T>& values);
 
-/// The host's, as files of VTK name it.
-const char* byte_order();
+/// Writes what a file of VTK has before its raw bytes: it is of such a kind, with attributes, and has a piece
+/// with such attributes and elements.
+void begin_vtk(GrowingFile& file, const std::string& kind, const std::string& attributes,
+               const std::string& piece, const std::string& elements);
+/// And behind them.
+constexpr const char* end_of_vtk = "\n  </AppendedData>\n</VTKFile>\n";
 
 /// A text as an attribute of XML.
 std::string escaped(const std::string& text);

@@ -2,7 +2,6 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <cerrno>
 #include <cstdint>
 #include <cstring>
 #include <filesystem>
@@ -221,7 +220,7 @@ void write_tiff(const OutputFile& output, const Raster& raster, const std::vecto
   output.require_file("a TIFF file");
   GrowingFile grown(output);
   const auto require = [&](bool done) {
-    if (!done) throw Error("writing " + output.path() + " failed: " + reason(errno));
+    if (!done) throw failed("writing", output.path());
   };
   File file = create_tiff(grown, big ? "w8" : "w");
   require(file != nullptr);

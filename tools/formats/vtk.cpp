@@ -15,11 +15,27 @@ std::string vtk_type() {
   return (std::is_floating_point_v<T> ? "Float" : "UInt") + std::to_string(8 * sizeof(T));
 }
 
-}  // namespace
-
+/// The host's, as files of VTK name it.
 const char* byte_order() {
   const std::uint16_t one = 1;
   return *reinterpret_cast<const unsigned char*>(&one) == 1 ? "LittleEndian" : "BigEndian";
+}
+
+}  // namespace
+
+void begin_vtk(GrowingFile& file, const std::string& kind, const std::string& attributes,
+               const std::string& piece, const std::string& elements) {
+  file << fmt::format(
+      R"(<?xml version="1.0"?>
+<VTKFile type="{0}" version="1.0" byte_order="{1}" header_type="UInt64">
+  <{0}{2}>
+    <Piece {3}>
+      {4}
+    </Piece>
+  </{0}>
+  <AppendedData encoding="raw">
+    _)",
+      kind, byte_order(), attributes, piece, elements);
 }
 
 std::string escaped(const std::string& text) {
@@ -52,26 +68,21 @@ void write_vti(const OutputFile& file, const std::string& name, const Raster& ra
   const auto& [bounds, y_up, crs, tags] = has_bounds ? *raster.georeference : pixels;
   const std::uint64_t bytes = values.size() * sizeof(T);
   GrowingFile image(file);
-  image << fmt::format(
-      R"(<?xml version="1.0"?>
-<VTKFile type="ImageData" version="1.0" byte_order="{0}" header_type="UInt64">
-  <ImageData WholeExtent="{1}" Origin="{4} {5} {6}" Spacing="{7} {8} {9}">
-    <Piece Extent="{1}">
-      <CellData Scalars="{2}">
-        <DataArray type="{3}" Name="{2}" format="appended" offset="0"/>
-      </CellData>
-    </Piece>
-  </ImageData>
-  <AppendedData encoding="raw">
-    _)",
-      byte_order(), fmt::format("0 {} 0 {} 0 {}", width, height, raster.is_volume() ? depth : 0), name,
-      vtk_type<T>(), bounds.x0, bounds.y0, raster.is_volume() ? bounds.z0 : 0,
-      (bounds.x1 - bounds.x0) / width, (bounds.y1 - bounds.y0) / height,
-      raster.is_volume() ? (bounds.z1 - bounds.z0) / depth : 1);
+  const std::string extent = fmt::format("0 {} 0 {} 0 {}", width, height, raster.is_volume() ? depth : 0);
+  begin_vtk(
+      image, "ImageData",
+      fmt::format(R"( WholeExtent="{}" Origin="{} {} {}" Spacing="{} {} {}")", extent, bounds.x0, bounds.y0,
+                  raster.is_volume() ? bounds.z0 : 0, (bounds.x1 - bounds.x0) / width,
+                  (bounds.y1 - bounds.y0) / height, raster.is_volume() ? (bounds.z1 - bounds.z0) / depth : 1),
+      fmt::format(R"(Extent="{}")", extent),
+      fmt::format(R"(<CellData Scalars="{0}">
+        <DataArray type="{1}" Name="{0}" format="appended" offset="0"/>
+      </CellData>)",
+                  name, vtk_type<T>()));
   image.write(&bytes, sizeof bytes);
   const std::size_t rows = y_up ? static_cast<std::size_t>(size.height()) : 1, count = values.size() / rows;
   for (std::size_t row = rows; row-- > 0;) image.write(values.data() + row * count, count * sizeof(T));
-  image << "\n  </AppendedData>\n</VTKFile>\n";
+  image << end_of_vtk;
   image.finish();
 }
 

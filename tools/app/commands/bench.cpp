@@ -1,7 +1,5 @@
 // vorocl bench: methods side by side on the same seeds, in time and in wrong pixels.
-#include <fmt/format.h>
 
-#include <algorithm>
 #include <memory>
 #include <nlohmann/json.hpp>
 
@@ -9,7 +7,6 @@
 #include "app/commands/commands.hpp"
 #include "app/options/option_groups.hpp"
 #include "app/outputs/measures.hpp"
-#include "app/sources/bounds.hpp"
 #include "app/terminal/console.hpp"
 #include "app/terminal/end_of_run.hpp"
 #include "formats/values.hpp"

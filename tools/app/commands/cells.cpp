@@ -37,17 +37,11 @@ struct CellsFiles {
   }
 };
 
-struct CellsOptions {
-  SeedOptions seeds;
-  Method method = vorocl::method("exact");
-  MethodOptions method_options;
+struct CellsOptions : DiagramOptions {
   std::optional<double> max_distance;
-  std::string device;
   CellsFiles files;
-  bool json = false;
   bool exact = false;
 
-  bool is_volume() const { return seeds.is_volume(); }
   std::vector<FileRequest> requests() const {
     if (exact) return {files.cells, files.adjacency, files.polygons};
     return files.of(is_volume() ? CellsOf::volumes : seeds.on_globe ? CellsOf::globe : CellsOf::planes);
@@ -186,8 +180,7 @@ void run(const CellsOptions& options) {
   const Seeds seeds = input.place(device);
   Diagram diagram(device, input.view.window);
   const Report report = options.method.run(seeds, diagram, options.method_options);
-  std::optional<std::size_t> beyond;
-  if (options.max_distance) beyond = leave_out_beyond(*options.max_distance, seeds, input.view, diagram);
+  const auto beyond = leave_out_beyond(options.max_distance, seeds, input.view, diagram);
   MeasureBuffers buffers;
   Measures measures(seeds, diagram, input.ids, input.view, buffers);
   if (!input.kept.names.empty()) measures.keep(input.kept);
@@ -219,7 +212,7 @@ void add_cells(CommandLine& line) {
   add_weight_options(command, options->seeds);
   add_max_distance_option(command, options->max_distance);
   add_crs_option(command, options->seeds.crs, "labels and distances as .tif and polygons as .geojson say")
-      .needs("--points");
+      .needs(command.option("--points"));
   add_json_option(command, options->json);
   const Option exact =
       command.add("--exact", options->exact,

@@ -1,7 +1,6 @@
 // vorocl compare: the similarity of two label files, or of one and the exact diagram of seeds.
 #include <fmt/format.h>
 
-#include <cmath>
 #include <functional>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -167,7 +166,7 @@ void run(const CompareOptions& options) {
     throw UsageError(options.of_seeds + " is for seeds; two label files are compared as they are");
   }
   for (const std::string& path : {options.a, options.b}) {
-    if (!path.empty()) as_usage([&] { check_extension(path, readable_label_extensions()); });
+    if (!path.empty()) as_usage([&] { check_extension(path, readable_label_extensions); });
   }
   const Comparison comparison = options.has_seeds() ? compare_with_exact(options) : compare_files(options);
   print_result(options, comparison);

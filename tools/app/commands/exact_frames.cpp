@@ -1,5 +1,4 @@
 // vorocl simulate --exact: cells as polygons or polyhedra in each frame of a trajectory, without diagrams.
-#include <fmt/format.h>
 
 #include <algorithm>
 #include <memory>

@@ -15,7 +15,6 @@
 #include "app/terminal/progress.hpp"
 #include "formats/files.hpp"
 #include "formats/images/pictures.hpp"
-#include "formats/npy.hpp"
 #include "formats/point_files.hpp"
 #include "vorocl/exact_diagram.hpp"
 #include "vorocl/relaxation.hpp"
@@ -51,7 +50,7 @@ std::vector<RequestedFile> requested_files(const RelaxCommand& options) {
     const std::vector<RequestedFile> of_rounds = requested_files(options.pictures);
     files.insert(files.end(), of_rounds.begin(), of_rounds.end());
   } else {
-    files.push_back({"-o", options.pictures.picture_path, picture_extensions()});
+    files.push_back({"-o", options.pictures.picture_path, picture_extensions});
   }
   return files;
 }

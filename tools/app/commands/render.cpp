@@ -20,26 +20,20 @@ namespace vorocl::command {
 
 namespace {
 
-struct RenderOptions {
-  SeedOptions seeds;
-  Method method = vorocl::method("exact");
-  MethodOptions method_options;
-  std::string device;
+struct RenderOptions : DiagramOptions {
   std::string picture_path;
   std::string waves_pattern;
   FileRequest labels = {labels_kind(), ""};
   std::optional<double> max_distance;
   PictureOptions picture;
-  bool json = false;
 
   bool draws() const { return !picture_path.empty() || !waves_pattern.empty(); }
-  bool is_volume() const { return seeds.is_volume(); }
 };
 
 std::vector<RequestedFile> requested_files(const RenderOptions& options) {
   return {requested(options.labels),
-          {"-o", options.picture_path, picture_extensions()},
-          {"--waves", options.waves_pattern, picture_extensions(), true}};
+          {"-o", options.picture_path, picture_extensions},
+          {"--waves", options.waves_pattern, picture_extensions, true}};
 }
 
 struct Outputs {
@@ -123,8 +117,7 @@ void run(const RenderOptions& options) {
   MeasureBuffers buffers;
   Diagram diagram = buffers.diagram_to_read(device, input.view.window);
   const Report report = options.method.run(seeds, diagram, options.method_options);
-  std::optional<std::size_t> beyond;
-  if (options.max_distance) beyond = leave_out_beyond(*options.max_distance, seeds, input.view, diagram);
+  const auto beyond = leave_out_beyond(options.max_distance, seeds, input.view, diagram);
   Measures measures(seeds, diagram, input.ids, input.view, buffers);
   if (outputs.labels) options.labels.kind.write(*outputs.labels, measures);
   if (options.draws()) {
@@ -172,7 +165,7 @@ void add_render(CommandLine& line) {
   command.add("-o", options->picture_path, "Picture to write: .png, .jpg, .bmp or .tif")
       .value_name("PICTURE");
   add_file_option(command, options->labels);
-  add_crs_option(command, options->seeds.crs, "labels as .tif say").needs("--points");
+  add_crs_option(command, options->seeds.crs, "labels as .tif say").needs(command.option("--points"));
   add_max_distance_option(command, options->max_distance);
   command
       .add("--waves", options->waves_pattern,

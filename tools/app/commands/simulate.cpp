@@ -1,5 +1,4 @@
 // vorocl simulate: the diagrams of moving seeds, frame by frame, as a film, pictures, labels or times alone.
-#include <fmt/format.h>
 
 #include <cmath>
 #include <memory>
@@ -8,7 +7,6 @@
 #include "app/commands/commands.hpp"
 #include "app/commands/simulate_course.hpp"
 #include "app/options/option_groups.hpp"
-#include "formats/files.hpp"
 #include "formats/values.hpp"
 #include "vorocl/similarity.hpp"
 

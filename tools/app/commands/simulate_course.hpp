@@ -3,8 +3,8 @@
 
 #include <exception>
 #include <optional>
-#include <string>
 
+#include "app/options/option_groups.hpp"
 #include "app/outputs/frame_writer.hpp"
 #include "app/sources/moving_seeds.hpp"
 #include "app/terminal/console.hpp"
@@ -19,17 +19,12 @@ namespace vorocl::command {
 /// The numbers of the engines of a simulation.
 constexpr std::size_t main_engine = 0, other_engine = 1;
 
-struct SimulateOptions {
-  SeedOptions seeds;
+struct SimulateOptions : DiagramOptions {
   MotionOptions motion;
-  Method method = vorocl::method("exact");
-  MethodOptions method_options;
   std::optional<Method> compare_with;
   std::optional<Metric> compare_metric;
   std::optional<double> tolerance;  // of distances in pixels; none: labels are compared
   FrameWriterOptions output;
-  std::string device;
-  bool json = false;
   bool exact = false;                            // cells as polygons, and no diagrams
   FileRequest polygons = {polygons_kind(), ""};  // of these
 

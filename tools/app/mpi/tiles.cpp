@@ -12,7 +12,6 @@
 #include "app/terminal/end_of_run.hpp"
 #include "app/terminal/progress.hpp"
 #include "app/terminal/samples.hpp"
-#include "formats/files.hpp"
 #include "vorocl/error.hpp"
 #include "vorocl/mpi.hpp"
 
@@ -42,11 +41,8 @@ class SharedPlaneWriter {
   /// Throws Error as PlaneWriter.
   SharedPlaneWriter(const Ranks& ranks, PlaneWriterOptions options, const Tiling& tiling,
                     const std::optional<Georeference>& georeference, const std::string& run)
-      : communicator_(ranks.communicator),
-        rank_(ranks.rank),
-        ranks_(ranks.count),
-        has_tables_(!options.cells.empty() || !options.adjacency.empty()) {
-    if (rank_ == 0) {
+      : ranks_(ranks), has_tables_(!options.cells.empty() || !options.adjacency.empty()) {
+    if (ranks_.rank == 0) {
       check_journal(options);
       options.resume = true;
       writer_ = std::make_unique<PlaneWriter>(options, tiling, georeference, run);
@@ -58,14 +54,14 @@ class SharedPlaneWriter {
   /// Collective.
   void begin(const std::string& seeds) {
     std::vector<std::uint64_t> made;
-    if (rank_ == 0) {
+    if (ranks_.rank == 0) {
       writer_->begin(seeds);
       made.assign(writer_->made_before().begin(), writer_->made_before().end());
     }
     std::uint64_t count = made.size();
-    MPI_Bcast(&count, 1, MPI_UINT64_T, 0, communicator_);  // the files are there from here on
+    MPI_Bcast(&count, 1, MPI_UINT64_T, 0, ranks_.communicator);  // the files are there from here on
     made.resize(count);
-    MPI_Bcast(made.data(), static_cast<int>(count), MPI_UINT64_T, 0, communicator_);
+    MPI_Bcast(made.data(), static_cast<int>(count), MPI_UINT64_T, 0, ranks_.communicator);
     made_before_.insert(made.begin(), made.end());
     known_ = made.size();
     for (const auto& file : files_) file->join();
@@ -76,19 +72,19 @@ class SharedPlaneWriter {
 
   /// Where this rank's tiles are summed; null: nowhere.
   PlaneCells* cells() {
-    if (rank_ == 0) return writer_->cells();
+    if (ranks_.rank == 0) return writer_->cells();
     return has_tables_ ? &cells_ : nullptr;
   }
 
   /// Writes a tile.
   void add(const TileLabels& tile) {
-    if (rank_ == 0) {
+    if (ranks_.rank == 0) {
       writer_->add(tile);
       ++known_;
       for (;;) {
         int there = 0;
         MPI_Status status;
-        MPI_Iprobe(MPI_ANY_SOURCE, written, communicator_, &there, &status);  // ends are for end()
+        MPI_Iprobe(MPI_ANY_SOURCE, written, ranks_.communicator, &there, &status);  // ends are for end()
         if (there == 0) return;
         receive(status);
       }
@@ -104,7 +100,7 @@ class SharedPlaneWriter {
 
   /// Notes what this rank has written: after add() alone.
   void checkpoint() {
-    if (rank_ == 0) {
+    if (ranks_.rank == 0) {
       writer_->checkpoint();
       return;
     }
@@ -120,22 +116,22 @@ class SharedPlaneWriter {
 
   /// Of a run that ends before all tiles are made: what stays of it, for an error.
   std::string kept() const {
-    return rank_ == 0 ? writer_->kept()
-                      : "with --resume the same command goes on with the tiles that are not complete";
+    return ranks_.rank == 0 ? writer_->kept()
+                            : "with --resume the same command goes on with the tiles that are not complete";
   }
 
   /// When this rank has written its tiles. Rank 0 waits until all have, and the disk has them.
   // Before anything that ranks do together: the others' messages end when rank 0 takes them.
   void end() {
-    if (rank_ > 0) {
+    if (ranks_.rank > 0) {
       send(all_written);
       wait_for_message();
       return;
     }
     writer_->checkpoint();
-    for (int ended = 1; ended < ranks_;) {
+    for (int ended = 1; ended < ranks_.count;) {
       MPI_Status status;
-      MPI_Probe(MPI_ANY_SOURCE, MPI_ANY_TAG, communicator_, &status);
+      MPI_Probe(MPI_ANY_SOURCE, MPI_ANY_TAG, ranks_.communicator, &status);
       receive(status);
       writer_->checkpoint();
       ended += status.MPI_TAG == all_written ? 1 : 0;
@@ -144,8 +140,8 @@ class SharedPlaneWriter {
 
   /// On all ranks, after end(): gives the files their names.
   void finish(const Units& units, const EachSeed& seeds) {
-    if (rank_ == 0) writer_->finish(units, seeds);
-    MPI_Barrier(communicator_);
+    if (ranks_.rank == 0) writer_->finish(units, seeds);
+    MPI_Barrier(ranks_.communicator);
   }
 
  private:
@@ -169,7 +165,8 @@ class SharedPlaneWriter {
       throw Error(
           "the cells of the tiles since the last checkpoint take more than 2 GiB; take smaller tiles");
     }
-    MPI_Isend(message_.data(), static_cast<int>(message_.size()), MPI_BYTE, 0, tag, communicator_, &sending_);
+    MPI_Isend(message_.data(), static_cast<int>(message_.size()), MPI_BYTE, 0, tag, ranks_.communicator,
+              &sending_);
   }
 
   void wait_for_message() {
@@ -181,7 +178,7 @@ class SharedPlaneWriter {
     int size = 0;
     MPI_Get_count(&status, MPI_BYTE, &size);
     std::vector<char> message(static_cast<std::size_t>(size));
-    MPI_Recv(message.data(), size, MPI_BYTE, status.MPI_SOURCE, status.MPI_TAG, communicator_,
+    MPI_Recv(message.data(), size, MPI_BYTE, status.MPI_SOURCE, status.MPI_TAG, ranks_.communicator,
              MPI_STATUS_IGNORE);
     std::size_t place = 0;
     std::vector<TileJournal::Entry> entries(get(message, place));
@@ -194,8 +191,7 @@ class SharedPlaneWriter {
     writer_->add(entries, {message.begin() + static_cast<std::ptrdiff_t>(place), message.end()});
   }
 
-  MPI_Comm communicator_;
-  int rank_, ranks_;
+  Ranks ranks_;
   bool has_tables_;
   std::unique_ptr<PlaneWriter> writer_;  // on rank 0
   std::set<std::uint64_t> made_before_;

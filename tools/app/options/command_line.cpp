@@ -101,11 +101,6 @@ Option& Option::needs(const Option& other) {
   return *this;
 }
 
-Option& Option::needs(const std::string& name) {
-  option_->needs(name);
-  return *this;
-}
-
 Option& Option::excludes(const Option& other) {
   option_->excludes(other.option_);
   return *this;

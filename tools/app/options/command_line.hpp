@@ -2,7 +2,6 @@
 // seconds to compile, in every source that includes it.
 #pragma once
 
-#include <cstdint>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -33,7 +32,6 @@ class Option {
   Option& in_range(T low, T high);  ///< both included
   Option& in_range(double low, double high);
   Option& needs(const Option& other);
-  Option& needs(const std::string& name);
   Option& excludes(const Option& other);
   Option& in_section(const char* title);  ///< of the help, not in that of begin_section()
 

@@ -16,6 +16,17 @@
 
 namespace vorocl::command {
 
+/// What subcommands that make diagrams are told.
+struct DiagramOptions {
+  SeedOptions seeds;
+  Method method = vorocl::method("exact");
+  MethodOptions method_options;
+  std::string device;
+  bool json = false;
+
+  bool is_volume() const { return seeds.is_volume(); }
+};
+
 /// Whether the command takes great circles.
 enum class Globe { no, yes };
 Option add_metric_option(Command& command, Metric& metric, Globe globe = Globe::no);

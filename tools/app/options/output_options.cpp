@@ -30,7 +30,7 @@ void add_cell_columns_option(Command& command, FileRequest& cells) {
       .add_texts("--cell-columns", choose_all, "The columns of --cells, in this order: " + names_of(columns))
       .value_name("NAMES")
       .default_text("all")
-      .needs("--cells");
+      .needs(command.option("--cells"));
 }
 
 void add_film_options(Command& command, FrameWriterOptions& options, const std::string& value_name,
@@ -56,7 +56,7 @@ void add_frame_writer_options(Command& command, FrameWriterOptions& options) {
       .add("--similarity", options.similarity_path,
            "Similarities to write, frame by frame, with --compare-with exact errors too: .csv")
       .value_name("FILE")
-      .needs("--compare-with");
+      .needs(command.option("--compare-with"));
   command
       .add("--statistics", options.statistics_path, "Statistics of cells to write, one row per frame: .csv")
       .value_name("FILE");

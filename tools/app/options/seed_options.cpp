@@ -4,8 +4,6 @@
 #include <cmath>
 #include <limits>
 #include <string_view>
-#include <tuple>
-#include <utility>
 #include <vector>
 
 #include "app/options/option_groups.hpp"
@@ -240,7 +238,7 @@ void add_keep_option(Command& command, SeedOptions& options) {
       .add_list("--keep", options.keep, parse,
                 "Columns of the CSV file that tables of cells and polygons have too; all: every named one")
       .value_name("COLUMN,...")
-      .needs("--points")
+      .needs(command.option("--points"))
       .in_section(seed_files);
 }
 
@@ -266,7 +264,7 @@ void add_frame_option(Command& command, SeedOptions& options) {
       .value_name("K")
       .in_range(0, std::numeric_limits<int>::max() - 1)
       .default_is_value()
-      .needs("--trajectory")
+      .needs(command.option("--trajectory"))
       .in_section(seed_files);
 }
 

@@ -2,10 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstddef>
 #include <cstdint>
 #include <opencv2/core.hpp>
-#include <optional>
 #include <set>
 #include <string>
 #include <vector>
@@ -168,11 +166,9 @@ void FileKind::write(const OutputFile& file, Measures& measures) const {
   }
 }
 
-const FileKind& labels_kind() {
-  static const FileKind kind = {"--labels", "Labels: .npy (uint32), .tif (32-bit) or .vti",
-                                label_extensions(), [](Measures& measures) { measures.labels(); },
-                                write_label_file};
-  return kind;
+FileKind labels_kind() {
+  return {"--labels", "Labels: .npy (uint32), .tif (32-bit) or .vti", label_extensions,
+          [](Measures& measures) { measures.labels(); }, write_label_file};
 }
 
 const std::vector<CellColumn>& all_cell_columns() {
@@ -265,40 +261,31 @@ FileKind cells_kind(const std::vector<std::string>& names) {
           TableKind{names, add_rows, true}};
 }
 
-const FileKind& adjacency_kind() {
-  static const FileKind kind = {"--adjacency",
-                                "Pairs of cells that touch, with what they share: .csv",
-                                {".csv"},
-                                [](Measures& measures) { measures.pairs(); },
-                                TableKind{{"a", "b", "length"}, add_pairs}};
-  return kind;
+FileKind adjacency_kind() {
+  return {"--adjacency",
+          "Pairs of cells that touch, with what they share: .csv",
+          {".csv"},
+          [](Measures& measures) { measures.pairs(); },
+          TableKind{{"a", "b", "length"}, add_pairs}};
 }
 
-const FileKind& distance_kind() {
-  static const FileKind kind = {"--distance",
-                                "Distances to the nearest seed: .npy (float32), .tif (32-bit float) or .vti",
-                                {".npy", ".tif", ".tiff", ".vti"},
-                                [](Measures& measures) { measures.distances(); },
-                                write_distance_file};
-  return kind;
+FileKind distance_kind() {
+  return {"--distance", "Distances to the nearest seed: .npy (float32), .tif (32-bit float) or .vti",
+          label_extensions, [](Measures& measures) { measures.distances(); }, write_distance_file};
 }
 
-const FileKind& border_kind() {
-  static const FileKind kind = {
-      "--border",
-      "1 where a pixel borders on another cell, else 0: .npy (uint8), .vti, or .png (white)",
-      {".npy", ".png", ".vti"},
-      [](Measures& measures) { measures.borders(); },
-      write_border_file};
-  return kind;
+FileKind border_kind() {
+  return {"--border",
+          "1 where a pixel borders on another cell, else 0: .npy (uint8), .vti, or .png (white)",
+          {".npy", ".png", ".vti"},
+          [](Measures& measures) { measures.borders(); },
+          write_border_file};
 }
 
-const FileKind& polygons_kind() {
-  static const FileKind kind = {
-      "--polygons", "Polygons of --exact: .geojson, .csv (WKT) or .vtp (ParaView); polyhedra: .vtu",
-      polygon_extensions(), [](Measures& measures) { measures.exact()->read_vertices(); },
-      [](const OutputFile& file, Measures& measures) { measures.exact()->write_polygons(file); }};
-  return kind;
+FileKind polygons_kind() {
+  return {"--polygons", "Polygons of --exact: .geojson, .csv (WKT) or .vtp (ParaView); polyhedra: .vtu",
+          polygon_extensions, [](Measures& measures) { measures.exact()->read_vertices(); },
+          [](const OutputFile& file, Measures& measures) { measures.exact()->write_polygons(file); }};
 }
 
 FileRequest of_grid(FileRequest request, CellsOf cells) {
@@ -309,7 +296,7 @@ FileRequest of_grid(FileRequest request, CellsOf cells) {
   } else if (is_volume && kind.table() != nullptr) {
     std::get<TableKind>(kind.content).columns = {"a", "b", "area"};
   } else if (is_volume) {
-    kind.extensions = volume_extensions();
+    kind.extensions = volume_extensions;
   }
   return request;
 }

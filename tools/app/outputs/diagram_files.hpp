@@ -40,7 +40,7 @@ struct FileKind {
 };
 
 /// Labels by id: .npy, .tif or .vti.
-const FileKind& labels_kind();
+FileKind labels_kind();
 enum class CellsOf { planes, volumes, both, globe, tiles };
 
 /// A cell as its row in a table, in the units of that; what it does not have is unknown.
@@ -80,14 +80,14 @@ std::vector<std::string> chosen_columns(const std::vector<std::string>& chosen, 
 /// One row per cell with these of the columns, one row per pair of cells that touch: .csv. The manual page
 /// explains the columns.
 FileKind cells_kind(const std::vector<std::string>& columns = cell_columns(CellsOf::planes));
-const FileKind& adjacency_kind();
+FileKind adjacency_kind();
 /// Distances to the nearest seed in pixels, float: .npy, .tif or .vti.
-const FileKind& distance_kind();
+FileKind distance_kind();
 /// The pixels at the borders of the cells: .npy, .png or .vti.
-const FileKind& border_kind();
+FileKind border_kind();
 
 /// Polygons or polyhedra of exact cells: see polygon_files.hpp.
-const FileKind& polygons_kind();
+FileKind polygons_kind();
 
 /// A file that the command line may ask for.
 struct FileRequest {

@@ -60,28 +60,26 @@ ExactCellRows::ExactCellRows(const Seeds& seeds, const ExactCellsResult& result,
 }
 
 const ExactPolygons& ExactCellRows::polygons() {
-  if (!polygons_) polygons_ = result_.read_polygons();
-  return *polygons_;
+  return once(polygons_, [&] { return result_.read_polygons(); });
 }
 
 const ExactPolyhedra& ExactCellRows::polyhedra() {
-  if (!polyhedra_) polyhedra_ = result_.read_polyhedra();
-  return *polyhedra_;
+  return once(polyhedra_, [&] { return result_.read_polyhedra(); });
 }
 
 const std::vector<ExactPair>& ExactCellRows::pairs() {
-  if (!pairs_) pairs_ = result_.read_pairs();
-  return *pairs_;
+  return once(pairs_, [&] { return result_.read_pairs(); });
 }
 
 const std::vector<ExactFace>& ExactCellRows::faces() {
-  if (faces_) return *faces_;
-  faces_ = result_.read_faces();
-  for (ExactFace& face : *faces_) {  // images of the points as rows have them
-    for (std::size_t axis = 0; axis < 3; ++axis)
-      face.image[axis] += periods_[face.a][axis] - periods_[face.b][axis];
-  }
-  return *faces_;
+  return once(faces_, [&] {
+    std::vector<ExactFace> faces = result_.read_faces();
+    for (ExactFace& face : faces) {  // images of the points as rows have them
+      for (std::size_t axis = 0; axis < 3; ++axis)
+        face.image[axis] += periods_[face.a][axis] - periods_[face.b][axis];
+    }
+    return faces;
+  });
 }
 
 Vertices ExactCellRows::vertices(std::size_t seed) {

@@ -13,6 +13,13 @@
 
 namespace vorocl::command {
 
+/// What `made` holds, made by `make` when it is first asked for.
+template <typename T, typename Make>
+const T& once(std::optional<T>& made, const Make& make) {
+  if (!made) made = make();
+  return *made;
+}
+
 /// Along x, y and z.
 using PeriodCounts = std::array<std::int32_t, 3>;
 

@@ -231,7 +231,7 @@ std::vector<RequestedFile> requested_files(const FrameWriterOptions& options) {
   }
   files.push_back({"--similarity", options.similarity_path, {".csv"}});
   files.push_back({"--statistics", options.statistics_path, {".csv"}});
-  std::vector<std::string> extensions = picture_extensions();
+  std::vector<std::string> extensions = picture_extensions;
   extensions.insert(extensions.begin(), film_extension);
   const bool is_film = extension_of(options.picture_path) == film_extension;
   files.push_back({"-o", options.picture_path, extensions, !is_film});

@@ -18,13 +18,6 @@ namespace vorocl::command {
 
 namespace {
 
-/// What `made` holds, made by `make` when it is first asked for.
-template <typename T, typename Make>
-const T& once(std::optional<T>& made, const Make& make) {
-  if (!made) made = make();
-  return *made;
-}
-
 /// By the id of each; those of one id stay in their order.
 template <typename T, typename IdOf>
 std::vector<T> in_order(const std::vector<T>& items, const IdOf& id_of_item) {
@@ -297,11 +290,13 @@ void check_max_distance(const std::optional<double>& distance, const View& view)
       "say --units px if D is, or give a --size of the shape of the bounds");
 }
 
-std::size_t leave_out_beyond(double distance, const Seeds& seeds, const View& view, Diagram& diagram) {
+std::optional<std::size_t> leave_out_beyond(std::optional<double> distance, const Seeds& seeds,
+                                            const View& view, Diagram& diagram) {
+  if (!distance) return std::nullopt;
   Field<float> field;
   distance_field(diagram, field);
   const std::vector<float> distances = view.units.lengths(field.read());
-  const double most = distance * (1 + 1e-6);  // a float's rounding leaves out no pixel
+  const double most = *distance * (1 + 1e-6);  // a float's rounding leaves out no pixel
   std::vector<std::uint32_t> labels = diagram.read();
   std::size_t beyond = 0;
   for (std::size_t i = 0; i < labels.size(); ++i) {

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <array>
-#include <cmath>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -97,11 +96,6 @@ class Measures {
   bool is_on_globe() const { return metric_ == Metric::great_circle; }
   const std::vector<vorocl::CellRow>& on_globe();
 
-  /// How far the farthest pixel of a cell is from its seed.
-  double largest_distance(std::size_t label) {
-    return is_on_globe() ? on_globe()[label].largest_distance : shapes()[label].farthest(metric_);
-  }
-
   /// The cells that share a pixel edge with one, and how many edges that is.
   const std::vector<std::uint32_t>& neighbours();
   const std::vector<std::uint32_t>& perimeters();
@@ -177,8 +171,9 @@ class Measures {
 void check_max_distance(const std::optional<double>& distance, const View& view);
 
 /// Leaves pixels that are farther than this from their seed, in the view's units, without a label, and
-/// returns how many.
-std::size_t leave_out_beyond(double distance, const Seeds& seeds, const View& view, Diagram& diagram);
+/// returns how many, where that is asked for.
+std::optional<std::size_t> leave_out_beyond(std::optional<double> distance, const Seeds& seeds,
+                                            const View& view, Diagram& diagram);
 
 /// The metric, the device and the grid of the seeds; the sides are those of what is shown.
 Json json_of_grid(Metric metric, const Seeds& seeds, std::int64_t width, std::int64_t height);

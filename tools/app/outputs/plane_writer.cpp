@@ -144,11 +144,11 @@ class PlaneTables {
   /// Where tiles are summed; null without tables.
   PlaneCells* recent() { return is_asked_for() ? &recent_ : nullptr; }
 
-  /// Begins a file of sums, or goes on behind what was kept of it. `is_complete`: if there is none, the
+  /// Begins a file of sums, or goes on behind what was kept of it. If that is complete and there is none, the
   /// tables must be there already. Throws Error if that fails, or it is no such file.
-  void open_part(const std::optional<Kept>& kept, bool is_complete) {
+  void open_part(const std::optional<Kept>& kept) {
     std::error_code ignored;
-    is_finished_ = is_complete && !std::filesystem::exists(part_path(), ignored);
+    is_finished_ = kept && kept->is_complete && !std::filesystem::exists(part_path(), ignored);
     if (is_finished_) {
       for (const auto& file : {cells_file_, adjacency_file_}) {
         if (file) open_to_read(file->path());
@@ -207,9 +207,9 @@ class PlaneTables {
 };
 
 std::vector<RequestedFile> requested_files(const PlaneWriterOptions& options) {
-  return {{"--labels", options.labels, plane_extensions()},
-          {"--distance", options.distances, plane_extensions()},
-          {"-o", options.picture, picture_extensions()},
+  return {{"--labels", options.labels, plane_extensions},
+          {"--distance", options.distances, plane_extensions},
+          {"-o", options.picture, picture_extensions},
           {"--cells", options.cells, {".csv"}},
           {"--adjacency", options.adjacency, {".csv"}}};
 }
@@ -258,16 +258,15 @@ void PlaneWriter::begin(const std::string& seeds) {
     for (const auto& file : files_) file->open();
     return;
   }
-  const bool is_complete = journal_->is_complete();
   journal_->begin(part_paths(), seeds);
   for (std::size_t i = 0; i < files_.size(); ++i) {
     const std::optional<KeptTiles> kept = journal_->kept(i);
     journal_->open([&] { files_[i]->open_part(kept); });
   }
   if (tables_->is_asked_for()) {
-    journal_->open([&] { tables_->open_part(journal_->kept_sums(), is_complete); });
+    journal_->open([&] { tables_->open_part(journal_->kept_sums()); });
   }
-  made_before_.insert(journal_->tiles().begin(), journal_->tiles().end());
+  for (const TileJournal::Entry& tile : journal_->tiles()) made_before_.insert(tile.number);
   complete_ = made_before_.size();
 }
 

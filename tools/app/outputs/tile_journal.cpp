@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <filesystem>
+#include <iterator>
 #include <sstream>
 #include <utility>
 
@@ -105,21 +106,21 @@ void TileJournal::lock() {
 
 void TileJournal::refuse_other() const { throw Error("another run is writing " + path_); }
 
-void TileJournal::refuse_file() const {
-  throw Error(path_ + " is no journal of a run; " + how_to_start_again(path_));
+void TileJournal::refuse(const std::string& what) const {
+  throw Error(path_ + " is " + what + "; " + how_to_start_again(path_));
 }
 
 void TileJournal::read() {
   std::vector<std::string> there;
   std::error_code ignored;
-  if (!std::filesystem::is_regular_file(path_, ignored)) refuse_file();
+  if (!std::filesystem::is_regular_file(path_, ignored)) refuse("no journal of a run");
   std::ifstream file = open_to_read(path_);
   for (std::string line; std::getline(file, line) && !file.eof();) {  // the last one may be cut off
     there.push_back(line.substr(0, line.rfind(' ')));
     if (there.front() != title) break;
-    if (sealed(there.back(), hash_) != line) refuse_damage();
+    if (sealed(there.back(), hash_) != line) refuse("damaged");
   }
-  if (there.empty() || there.front() != title) refuse_file();
+  if (there.empty() || there.front() != title) refuse("no journal of a run");
   const std::vector<std::string> head = head_of(run_);
   const auto end = std::find(there.begin(), there.end(), end_of_run);
   const std::vector<std::string> head_there(there.begin(), end == there.end() ? end : end + 1);
@@ -139,20 +140,17 @@ void TileJournal::read_tiles() {
       Entry entry;
       text >> entry.number;
       for (std::uint64_t bytes = 0; text >> bytes;) entry.bytes.push_back(bytes);
-      if (line_of(entry) != line) refuse_damage();
+      if (line_of(entry) != line) refuse("damaged");
       entries.push_back(std::move(entry));
     } else if (word == sums_word) {
       text >> bytes_of_sums_;
-      if (line_of_sums(bytes_of_sums_) != line) refuse_damage();
-      for (Entry& entry : entries) {
-        tiles_.push_back(entry.number);
-        entries_.push_back(std::move(entry));
-      }
+      if (line_of_sums(bytes_of_sums_) != line) refuse("damaged");
+      std::move(entries.begin(), entries.end(), std::back_inserter(tiles_));
       entries.clear();
     } else if (line == last_line) {
       is_last_ = true;
     } else {
-      refuse_damage();
+      refuse("damaged");
     }
   }
 }
@@ -161,8 +159,6 @@ void TileJournal::refuse_run(const std::string& there, const std::string& here) 
   throw Error(fmt::format("{} is of another run: there {}, here {}; give its options, or {}", path_, there,
                           here, how_to_start_again(path_)));
 }
-
-void TileJournal::refuse_damage() const { throw Error(path_ + " is damaged; " + how_to_start_again(path_)); }
 
 void TileJournal::begin(const std::vector<std::string>& parts, const std::string& seeds) {
   const std::string here = seeds_word + seeds;
@@ -191,8 +187,8 @@ std::optional<KeptTiles> TileJournal::kept(std::size_t output) const {
   if (!is_there_) return std::nullopt;
   KeptTiles kept;
   kept.is_complete = is_last_;
-  for (const Entry& entry : entries_) {
-    if (output >= entry.bytes.size()) refuse_damage();
+  for (const Entry& entry : tiles_) {
+    if (output >= entry.bytes.size()) refuse("damaged");
     kept.tiles.push_back({entry.number, entry.bytes[output]});
   }
   return kept;
@@ -200,7 +196,7 @@ std::optional<KeptTiles> TileJournal::kept(std::size_t output) const {
 
 std::optional<Kept> TileJournal::kept_sums() const {
   if (!is_there_) return std::nullopt;
-  return Kept{bytes_of_sums_, false};
+  return Kept{bytes_of_sums_, is_last_};
 }
 
 void TileJournal::complete(const std::vector<Entry>& entries, std::size_t bytes_of_sums) {
@@ -219,9 +215,7 @@ void TileJournal::finish() {
 void TileJournal::append(const std::vector<std::string>& lines) {
   Hash hash = hash_;
   const std::string text = sealed_text(lines, hash);
-  if (truncate(path_.c_str(), static_cast<off_t>(bytes_)) != 0) {
-    throw Error("writing " + path_ + " failed: " + reason(errno));
-  }
+  if (truncate(path_.c_str(), static_cast<off_t>(bytes_)) != 0) throw failed("writing", path_);
   append_to_file(path_, text);
   hash_ = hash;
   bytes_ += text.size();
@@ -237,7 +231,7 @@ void TileJournal::open(const std::function<void()>& output) const {
 }
 
 void TileJournal::remove() {
-  if (unlink(path_.c_str()) != 0) throw Error("removing " + path_ + " failed: " + reason(errno));
+  if (unlink(path_.c_str()) != 0) throw failed("removing", path_);
 }
 
 std::string journal_path(const std::string& output) { return output + ".journal"; }

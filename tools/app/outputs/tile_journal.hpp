@@ -49,12 +49,6 @@ class TileJournal {
   /// no journal tells of.
   void begin(const std::vector<std::string>& parts, const std::string& seeds);
 
-  /// Whether all tiles are, and the outputs may have their names.
-  bool is_complete() const { return is_last_; }
-
-  /// The tiles that are complete, in the order in which they were.
-  const std::vector<std::uint64_t>& tiles() const { return tiles_; }
-
   /// What was kept of an output, by its place in the lists of bytes, and of the sums; none: it begins.
   std::optional<KeptTiles> kept(std::size_t output) const;
   std::optional<Kept> kept_sums() const;
@@ -67,6 +61,9 @@ class TileJournal {
     std::uint64_t number = 0;
     std::vector<std::uint64_t> bytes;
   };
+
+  /// The tiles that are complete, in the order in which they were.
+  const std::vector<Entry>& tiles() const { return tiles_; }
 
   /// All that is written of tiles is there. Throws Error if it cannot be noted.
   void complete(const std::vector<Entry>& entries, std::size_t bytes_of_sums);
@@ -83,16 +80,14 @@ class TileJournal {
   void append(const std::vector<std::string>& lines);
   void lock();
   [[noreturn]] void refuse_other() const;
-  [[noreturn]] void refuse_file() const;
-  [[noreturn]] void refuse_damage() const;
+  [[noreturn]] void refuse(const std::string& what) const;
   [[noreturn]] void refuse_run(const std::string& there, const std::string& here) const;
 
   std::string path_, run_;
   bool is_there_ = false;
   std::vector<std::string> steps_;  // the lines that were there behind those of the run
   std::string seeds_;
-  std::vector<Entry> entries_;
-  std::vector<std::uint64_t> tiles_;
+  std::vector<Entry> tiles_;
   std::size_t bytes_of_sums_ = 0;
   bool is_last_ = false;
   std::size_t bytes_ = 0;  // of the lines that count

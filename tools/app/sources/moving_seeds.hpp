@@ -1,11 +1,9 @@
 // Seeds with their motion: what a simulation is of.
 #pragma once
 
-#include <cstdint>
 #include <memory>
 #include <optional>
 #include <string>
-#include <vector>
 
 #include "app/sources/seed_input.hpp"
 #include "app/terminal/end_of_run.hpp"

@@ -3,9 +3,7 @@
 
 #include <functional>
 #include <memory>
-#include <optional>
 #include <string>
-#include <vector>
 
 #include "app/sources/seed_input.hpp"
 #include "app/sources/view.hpp"

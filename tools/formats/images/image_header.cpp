@@ -6,6 +6,7 @@
 #include <cstdlib>
 #include <string_view>
 
+#include "formats/files.hpp"
 #include "formats/images/pictures.hpp"
 #include "formats/raster_files.hpp"
 #include "vorocl/error.hpp"
@@ -13,9 +14,6 @@
 namespace vorocl::command {
 
 namespace {
-
-/// The most that Deflate makes of a byte. No other method in use comes near it on pictures.
-constexpr std::uint64_t most_packed = 1032;
 
 /// The bytes of a file, which may end anywhere: behind the end there are zeros.
 class FileBytes {
@@ -158,8 +156,9 @@ Size diagram_size(const std::string& path, std::int64_t width, std::int64_t heig
 void check_pixels(const std::string& path, const ImageHeader& header, std::uint64_t file_bytes) {
   const double bits = static_cast<double>(header.width) * static_cast<double>(header.height) *
                       static_cast<double>(header.bits_per_pixel);
+  // No other method in use comes near Deflate on pictures.
   const double packed =
-      std::floor(std::floor(bits / 8) / static_cast<double>(header.is_compressed ? most_packed : 1));
+      std::floor(std::floor(bits / 8) / static_cast<double>(header.is_compressed ? greatest_compression : 1));
   if (header.width > 0 && header.height > 0 && packed <= static_cast<double>(file_bytes)) return;
   throw Error(fmt::format("{} is no image that can be read: its {} bytes cannot hold {} x {} pixels", path,
                           file_bytes, header.width, header.height));

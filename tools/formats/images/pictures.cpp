@@ -16,11 +16,6 @@
 
 namespace vorocl::command {
 
-const std::vector<std::string>& picture_extensions() {
-  static const std::vector<std::string> all = {".png", ".jpg", ".jpeg", ".bmp", ".tif", ".tiff"};
-  return all;
-}
-
 namespace {
 
 /// Appends up to so many bytes of a file.
@@ -99,22 +94,6 @@ void write_picture(const OutputFile& file, const cv::Mat& picture) {
   written.finish();
 }
 
-namespace {
-
-std::vector<std::string> notes_of(const std::string& path, const ImageInfo& info, bool has_threshold) {
-  std::vector<std::string> notes;
-  if (info.pages > 1) notes.push_back(fmt::format("{}: of {} pages the first is read", path, info.pages));
-  if (has_threshold) return notes;
-  if (info.is_white_zero)
-    notes.push_back(path +
-                    ": 0 is shown as white, and as everywhere the pixels that are not 0 are the seeds");
-  if (info.is_lossy)
-    notes.push_back(path + ": JPEG makes other numbers of zeros; --threshold 127 leaves them out");
-  return notes;
-}
-
-}  // namespace
-
 MaskRows::MaskRows(const std::string& path, std::optional<double> threshold)
     : path_(path), threshold_(threshold), rows_(open_image(path)), rows_left_(height()) {
   const ImageInfo& info = rows_->info();
@@ -126,7 +105,16 @@ MaskRows::MaskRows(const std::string& path, std::optional<double> threshold)
 }
 
 std::vector<std::string> MaskRows::notes() const {
-  return notes_of(path_, rows_->info(), threshold_.has_value());
+  const ImageInfo& info = rows_->info();
+  std::vector<std::string> notes;
+  if (info.pages > 1) notes.push_back(fmt::format("{}: of {} pages the first is read", path_, info.pages));
+  if (threshold_) return notes;
+  if (info.is_white_zero)
+    notes.push_back(path_ +
+                    ": 0 is shown as white, and as everywhere the pixels that are not 0 are the seeds");
+  if (info.is_lossy)
+    notes.push_back(path_ + ": JPEG makes other numbers of zeros; --threshold 127 leaves them out");
+  return notes;
 }
 
 void MaskRows::next(std::vector<std::uint8_t>& pixels) {

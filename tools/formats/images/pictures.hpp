@@ -40,7 +40,7 @@ ImageHeader read_image_header(const std::string& path, const std::vector<std::ui
 void check_pixels(const std::string& path, const ImageHeader& header, std::uint64_t file_bytes);
 
 /// The extensions of files that a picture can be written to.
-const std::vector<std::string>& picture_extensions();
+inline const std::vector<std::string> picture_extensions = {".png", ".jpg", ".jpeg", ".bmp", ".tif", ".tiff"};
 
 /// Of 8 bits, in one channel or three (BGR). Throws Error if the file cannot be written.
 void write_picture(const OutputFile& file, const cv::Mat& picture);

@@ -48,7 +48,7 @@ void PlacedFile::begin() {
 void PlacedFile::write_at(std::uint64_t place, const void* bytes, std::size_t count) {
   if (file_->is_finished()) return;
   if (write_all_at(file_->descriptor(), static_cast<const char*>(bytes), count, place)) return;
-  throw Error("writing " + output_.path() + " failed: " + reason(errno));
+  throw failed("writing", output_.path());
 }
 
 void PlacedFile::read_at(std::uint64_t place, void* bytes, std::size_t count) {

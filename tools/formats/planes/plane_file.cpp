@@ -25,11 +25,6 @@ std::string amount_of(std::uint64_t bytes) {
 
 }  // namespace
 
-const std::vector<std::string>& plane_extensions() {
-  static const std::vector<std::string> all = {".npy", ".zarr", ".tif", ".tiff"};
-  return all;
-}
-
 std::string plane_path(const std::string& name) {
   const std::string path = name.substr(0, name.find_last_not_of('/') + 1);
   return extension_of(path) == ".zarr" ? path : name;
@@ -37,7 +32,7 @@ std::string plane_path(const std::string& name) {
 
 std::unique_ptr<PlaneFile> plane_file(const std::string& path, const Tiling& tiling, PlaneValues values,
                                       const std::optional<Georeference>& georeference) {
-  check_extension(path, plane_extensions());
+  check_extension(path, plane_extensions);
   const std::string extension = extension_of(path);
   if (extension == ".npy") return npy_plane(path, tiling, values);
   if (extension == ".zarr") return zarr_plane(path, tiling, values);

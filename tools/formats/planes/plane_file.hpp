@@ -63,7 +63,7 @@ class PlaneFile {
 };
 
 /// The extensions of these files.
-const std::vector<std::string>& plane_extensions();
+inline const std::vector<std::string> plane_extensions = {".npy", ".zarr", ".tif", ".tiff"};
 
 /// The path that a name says: shells put a slash behind the names of folders, such as that of a .zarr.
 std::string plane_path(const std::string& name);
@@ -93,9 +93,6 @@ std::vector<std::uint32_t> padded(const TileLabels& tile, PlaneValues values, co
 
 /// Throws Error if the disk of the folder that holds the path has less space.
 void require_space(const std::string& path, std::uint64_t bytes);
-
-/// Deflate cannot make more of a byte than this many.
-constexpr std::uint64_t greatest_compression = 1032;
 
 // Each kind of file, as plane_file() makes it.
 std::unique_ptr<PlaneFile> npy_plane(const std::string& path, const Tiling& tiling, PlaneValues values);

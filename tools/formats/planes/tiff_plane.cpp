@@ -5,7 +5,6 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <cerrno>
 
 #include "formats/files.hpp"
 #include "formats/output_file.hpp"
@@ -137,7 +136,7 @@ class TiffPlane : public PlaneFile {
   static constexpr std::size_t header_bytes = 16;  // of a BigTIFF, before the first tile
 
   void require(bool done) const {
-    if (!done) throw Error("writing " + output_.path() + " failed: " + reason(errno));
+    if (!done) throw failed("writing", output_.path());
   }
 
   void begin() {

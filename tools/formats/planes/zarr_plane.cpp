@@ -8,7 +8,6 @@
 #include <unistd.h>
 #include <zlib.h>
 
-#include <cerrno>
 #include <filesystem>
 
 #include "formats/files.hpp"
@@ -63,10 +62,6 @@ void require_array(const std::string& folder) {
     }
   }
   if (code) throw Error("cannot read " + folder + ": " + code.message());
-}
-
-Error failed(const std::string& what, const std::string& path) {
-  return Error(what + " " + path + " failed: " + reason(errno));
 }
 
 class ZarrPlane : public PlaneFile {

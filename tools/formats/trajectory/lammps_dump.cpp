@@ -7,7 +7,6 @@
 #include "formats/trajectory/readers.hpp"
 #include "formats/trajectory/simulation_box.hpp"
 #include "formats/values.hpp"
-#include "vorocl/error.hpp"
 
 namespace vorocl::command {
 
@@ -104,7 +103,7 @@ std::string_view LammpsDump::read_header(Header& header) {
       }
       next_value(frame_line);
       std::string_view value = lines_.line();
-      header.timestep = take_integer(lines_, value, "a time step");
+      header.timestep = number_in<std::int64_t>(lines_, take_field(value), "a time step");
       check_end(lines_, value);
     } else if (after(line, "ITEM: NUMBER OF ATOMS")) {
       next_value(frame_line);
@@ -146,7 +145,8 @@ SimulationBox LammpsDump::read_box(std::string_view title, std::size_t frame_lin
     next_value(frame_line);
     std::string_view rest = lines_.line();
     const int count = has_edges ? 4 : has_tilt ? 3 : 2;
-    for (int i = 0; i < count; ++i) row[i] = take_real(lines_, rest, "a finite number of the box");
+    for (int i = 0; i < count; ++i)
+      row[i] = number_in<double>(lines_, take_field(rest), "a finite number of the box");
     check_end(lines_, rest);
   }
   const auto& [x, y, z] = values;

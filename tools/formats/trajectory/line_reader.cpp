@@ -5,14 +5,12 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstring>
 #include <filesystem>
 #include <new>
 #include <system_error>
 
 #include "formats/files.hpp"
-#include "formats/values.hpp"
 
 namespace vorocl::command {
 
@@ -25,16 +23,6 @@ constexpr std::array<std::string_view, 3> starts_of_packed = {
     "\375"
     "7zX",
     "(\265/\375"};  // which libarchive knows for sure
-
-template <typename T>
-T number_in(const LineReader& lines, std::string_view field, std::string_view what) {
-  if (field.empty()) throw lines.error(std::string(what) + " is missing here");
-  const std::optional<T> number = parse_number<T>(field);
-  if (!number || !std::isfinite(static_cast<double>(*number))) {
-    throw lines.error(shown(field) + " is not " + std::string(what));
-  }
-  return *number;
-}
 
 }  // namespace
 
@@ -192,18 +180,6 @@ void split_fields(std::string_view text, std::vector<std::string_view>& fields) 
   for (std::string_view field = take_field(text); !field.empty(); field = take_field(text)) {
     fields.push_back(field);
   }
-}
-
-double real_in(const LineReader& lines, std::string_view field, std::string_view what) {
-  return number_in<double>(lines, field, what);
-}
-
-std::int64_t take_integer(const LineReader& lines, std::string_view& text, std::string_view what) {
-  return number_in<std::int64_t>(lines, take_field(text), what);
-}
-
-double take_real(const LineReader& lines, std::string_view& text, std::string_view what) {
-  return real_in(lines, take_field(text), what);
 }
 
 void check_end(const LineReader& lines, std::string_view rest) {

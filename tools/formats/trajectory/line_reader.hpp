@@ -1,6 +1,7 @@
 // The lines of a text file, one at a time, with their numbers for what is wrong in them.
 #pragma once
 
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -9,6 +10,7 @@
 #include <string_view>
 #include <vector>
 
+#include "formats/values.hpp"
 #include "vorocl/error.hpp"
 
 struct archive;   // libarchive's
@@ -85,18 +87,22 @@ std::string_view take_field(std::string_view& text);
 /// All fields of the text, in the place of those that the list has.
 void split_fields(std::string_view text, std::vector<std::string_view>& fields);
 
-/// The number that a field is. Throws Error, which shows the field and says what it should be ("a finite x"),
-/// if it is no finite number.
-double real_in(const LineReader& lines, std::string_view field, std::string_view what);
-
-/// The same of the text's first field, which is taken off it.
-std::int64_t take_integer(const LineReader& lines, std::string_view& text, std::string_view what);
-double take_real(const LineReader& lines, std::string_view& text, std::string_view what);
-
 /// Throws Error unless nothing is left of the line.
 void check_end(const LineReader& lines, std::string_view rest);
 
 /// A piece of the file as an error shows it: in quotes, one short line of printable characters.
 std::string shown(std::string_view text);
+
+/// The number that a field is. Throws Error, which shows the field and says what it should be ("a finite x"),
+/// if it is no finite number.
+template <typename T>
+T number_in(const LineReader& lines, std::string_view field, std::string_view what) {
+  if (field.empty()) throw lines.error(std::string(what) + " is missing here");
+  const std::optional<T> number = parse_number<T>(field);
+  if (!number || !std::isfinite(static_cast<double>(*number))) {
+    throw lines.error(shown(field) + " is not " + std::string(what));
+  }
+  return *number;
+}
 
 }  // namespace vorocl::command

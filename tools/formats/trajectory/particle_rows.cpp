@@ -154,10 +154,10 @@ void ParticleRows::add(const LineReader& lines, const RowLayout& layout, const P
   }
   const std::uint32_t id =
       layout.id ? parse_id(lines, fields_[*layout.id]) : static_cast<std::uint32_t>(ids_.size());
-  Point position = {real_in(lines, fields_[layout.x], "a finite x"),
-                    real_in(lines, fields_[layout.y], "a finite y")};
+  Point position = {number_in<double>(lines, fields_[layout.x], "a finite x"),
+                    number_in<double>(lines, fields_[layout.y], "a finite y")};
   if (is_volume()) {
-    position.z = real_in(lines, fields_[*layout.z], "a finite z");
+    position.z = number_in<double>(lines, fields_[*layout.z], "a finite z");
   } else if (layout.z) {
     position.z = parse_number<double>(fields_[*layout.z]).value_or(0);
   }

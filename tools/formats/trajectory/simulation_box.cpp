@@ -6,8 +6,6 @@
 #include <charconv>
 #include <cmath>
 
-#include "vorocl/error.hpp"
-
 namespace vorocl::command {
 
 namespace {

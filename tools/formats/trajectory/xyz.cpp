@@ -1,15 +1,12 @@
 #include <algorithm>
-#include <cctype>
 #include <map>
 #include <optional>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "formats/trajectory/readers.hpp"
 #include "formats/trajectory/simulation_box.hpp"
 #include "formats/values.hpp"
-#include "vorocl/error.hpp"
 
 namespace vorocl::command {
 
@@ -17,13 +14,6 @@ namespace {
 
 /// An extended comment: keys in lower case, values without their quotes.
 using Pairs = std::map<std::string, std::string>;
-
-std::string lower(std::string_view text) {
-  std::string result(text);
-  std::transform(result.begin(), result.end(), result.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return result;
-}
 
 /// The value at the start of the text, taken off it: up to a blank, or what quotes, brackets or braces
 /// enclose.
@@ -87,7 +77,7 @@ std::vector<double> numbers(const LineReader& lines, const std::string& key, std
                             std::size_t count) {
   std::vector<double> values;
   for (std::string_view part : elements(lines, key, text, count)) {
-    values.push_back(take_real(lines, part, "a finite number (" + key + ")"));
+    values.push_back(number_in<double>(lines, take_field(part), "a finite number (" + key + ")"));
   }
   return values;
 }
