@@ -450,24 +450,22 @@ static inline first_t first_near(const scene_t* scene, const list_t* list, int c
     best_y = select(best_y, py, wins), best_x = select(best_x, px, wins);
   }
   uint distance[8];
-  int numbers[8], first = 0;
+  int numbers[8], lane = 0;
   store_uints(least, distance), store_ints(number, numbers);
   for (int i = 1; i < 8; ++i) {
-    const bool is_first =
-        distance[i] < distance[first] || (distance[i] == distance[first] && distance[i] != UINT_MAX &&
-                                          comes_first(scene, list->at[numbers[i]], list->at[numbers[first]]));
-    if (is_first) first = i;
+    if (distance[i] > distance[lane] || distance[i] == UINT_MAX) continue;
+    const bool is_first = comes_first(scene, list->at[numbers[i]], list->at[numbers[lane]]);
+    if (distance[i] < distance[lane] || is_first) lane = i;
   }
-  const int found = numbers[first];
-  const first_t place = {list->x[found], list->y[found], list->at[found]};
-  return place;
+  const int found = numbers[lane];
+  const first_t first = {list->x[found], list->y[found], list->at[found]};
+  return first;
 }
 
 NOINLINE static int drop_by_firsts(const scene_t* scene, list_t* list, int count, box_t box) {
   const int sx = (box.sx - 1) * HALF, sy = (box.sy - 1) * HALF;
   for (int corner = 0; corner < CORNERS; ++corner) {
-    const first_t rival =
-        first_near(scene, list, count, corner % 2 ? sx : -sx, corner / 2 ? sy : -sy);
+    const first_t rival = first_near(scene, list, count, corner % 2 ? sx : -sx, corner / 2 ? sy : -sy);
     const int west = (int)abs(rival.x + sx), east = (int)abs(rival.x - sx);
     const int north = (int)abs(rival.y + sy), south = (int)abs(rival.y - sy);
     int kept = 0;

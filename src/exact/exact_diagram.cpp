@@ -89,7 +89,8 @@ Report exact_diagram_by_places(Filling& filling, DiagramState& state) {
   for (cl::Buffer* const list : {&x, &y, &ids}) state.reserve(*list, room * word);
   const bool in_groups = device.tuning().shape == Shape::group;
   KernelOptions options{filling.metric()};
-  options.flat = !in_groups && grid.has_voxels() && grid.depth() == 1;
+  const bool is_flat = grid.has_voxels() && grid.depth() == 1;
+  options.flat = is_flat && !in_groups;
   const bool have_z = grid.has_voxels() && !options.flat;
   if (have_z) state.reserve(z, room * word);
   const std::shared_ptr<const Lags> weighted = filling.seeds().lags();
@@ -138,7 +139,6 @@ Report exact_diagram_by_places(Filling& filling, DiagramState& state) {
     const std::size_t items = device.tuning().patch_items,
                       items_of_crowd = std::min<std::size_t>(items, MOST_OF_CROWD_ITEMS);
     if (grid.has_voxels()) {
-      const bool is_flat = grid.depth() == 1;
       const std::size_t boxes = boxes_along(grid.width(), is_flat ? CROWD_SIDE : BOX_WIDTH) *
                                 boxes_along(grid.height(), is_flat ? CROWD_SIDE : BOX_HEIGHT) *
                                 boxes_along(grid.depth(), BOX_DEPTH);

@@ -226,6 +226,23 @@ BOOST_AUTO_TEST_CASE(many_points_in_tiles_of_all_densities) {
   }
 }
 
+BOOST_AUTO_TEST_CASE(labels_of_stamps_go_past_the_caches_where_they_are_many) {
+  const Grid grid(2064, 2040);
+  std::mt19937_64 rng(5);
+  std::vector<std::optional<Point>> points;
+  for (int i = 0; i < 700000; ++i) {
+    const double x = static_cast<double>(rng() >> 11) * 0x1p-53,
+                 y = static_cast<double>(rng() >> 11) * 0x1p-53;
+    points.emplace_back(Point{2064 * x, 2040 * y});
+  }
+  const Labels all = labels_of(engines()[0], grid, points, Metric::euclidean);
+  for (std::int64_t y = 0; y < grid.height(); y += 510) {  // which have fewer
+    const Labels part = labels_of(engines()[0], Window(grid, 0, y, 2064, 510), points, Metric::euclidean);
+    const auto first = all.begin() + y * grid.width();
+    BOOST_TEST(count_differences(part, Labels(first, first + 510 * grid.width())) == 0u, "from row " << y);
+  }
+}
+
 BOOST_AUTO_TEST_CASE(crowds_that_no_list_holds) {
   // Far from a line of points all of those beside a tile may win in it. A row's pixels have one label: that
   // of the first.
@@ -246,12 +263,13 @@ BOOST_AUTO_TEST_CASE(crowds_that_no_list_holds) {
 }
 
 BOOST_AUTO_TEST_CASE(crowds_along_lines) {
-  // 32 points per pixel. Where the slope is 1 nearly all pixels are halfway between two of them.
+  // 32 points per pixel. Where the slope is 1 nearly all pixels are halfway between two of them, of which the
+  // one with the higher id comes first.
   const Grid grid(150, 150);
   for (const double slope : {1.0, 0.5, 0.03}) {
     std::vector<std::optional<Point>> points;
     for (int i = 0; i < 32 * 150; ++i) {
-      const double along = (i + 0.5) / 32;
+      const double along = 150 - (i + 0.5) / 32;
       points.emplace_back(Point{along, 75 + slope * (along - 75)});
     }
     for (const Metric metric : both_metrics) {  // the sums of x and y of hundreds are the same

@@ -174,6 +174,27 @@ BOOST_AUTO_TEST_CASE(sides_of_thousands_of_voxels_are_right_where_they_are_looke
   }
 }
 
+BOOST_AUTO_TEST_CASE(labels_of_stamps_go_past_the_caches_where_they_are_many) {
+  std::mt19937_64 rng(6);
+  const auto below = [&](std::int64_t end) {
+    return static_cast<std::int64_t>(rng() % static_cast<std::uint64_t>(end));
+  };
+  const Grid grid(176, 161, 152);
+  std::vector<Spot> seeds(300000);
+  for (Spot& seed : seeds)
+    seed = {below(grid.width() * parts), below(grid.height() * parts), below(grid.depth() * parts)};
+  const Labels labels = labels_of(test_device(), grid, seeds);
+  std::size_t wrong = 0;
+  for (int i = 0; i < 300; ++i) {
+    const auto at = static_cast<std::size_t>(below(static_cast<std::int64_t>(grid.pixels())));
+    const auto number = static_cast<std::int64_t>(at);
+    const Spot voxel = {number % grid.width(), number / grid.width() % grid.height(),
+                        number / grid.width() / grid.height()};
+    wrong += labels[at] != label_by_definition(grid, seeds, voxel) ? 1 : 0;
+  }
+  BOOST_TEST(wrong == 0u);
+}
+
 BOOST_AUTO_TEST_CASE(crowds_have_no_wrong_voxel) {
   std::mt19937_64 rng(4);
   const auto below = [&](std::int64_t end) {
