@@ -19,8 +19,8 @@
 #define SIDE_OF_PLANE 64
 #define SIDE_OF_VOLUME 32
 
-// In the group shape a work-group of 32, 64, 128 or 256 items labels a patch, a square of pixels, or a part
-// of one that has a crowd, or a box of a volume.
+// In the group shape a work-group of 32, 64, 128 or 256 items labels a patch, a square of pixels or a cuboid of voxels,
+// or a box of one: where a patch of a plane has a crowd, and in a volume where places are not dense.
 #define PATCH_BITS 5
 #define PATCH (1 << PATCH_BITS)
 #define CROWD_SIDE 16  // and that of a box in a volume of one slice
@@ -30,7 +30,9 @@
 #if BOX_WIDTH * BOX_HEIGHT * BOX_DEPTH != CROWD_SIDE * CROWD_SIDE
 #error "All boxes have as many pixels"
 #endif
-#define MOST_OF_CROWD_ITEMS 64
+#define BOXES_ALONG 2  // a patch of a volume, along each axis
+#define MOST_OPEN 512  // pixels of a patch that look alone, each for the nearest place
+#define BEFORE_QUEUE 2  // the number of patches in the queue, which have crowds, and that of all open pixels
 
 #define BUCKETS 256            // of rows of bins, into which places are sorted first
 #define PLACES_OF_BIN 4        // about

@@ -23,6 +23,7 @@ struct PlacesWorkspace {
   cl::Buffer table;                       // likewise, in the group shape
   cl::Buffer starts, x, y, z, ids, lags;  // the index (kernels/exact/bins.cl)
   cl::Buffer pending, queue;              // patches without labels as yet, and those with crowds
+  cl::Buffer open;                        // pixels that look for their places alone
 };
 
 /// What is labelled: places with their images, or seeds at the centres of the grid's pixels.
@@ -83,7 +84,7 @@ Report exact_diagram_by_places(Filling& filling, DiagramState& state) {
   const auto bins_along = [&](int axis) { return boxes_along(size.s[axis], 1 << bits.s[axis]); };
   const std::size_t rows = bins_along(1) * bins_along(2);
   const std::size_t entries = rows * (bins_along(0) + 1), room = count + BEHIND_PLACES;
-  auto& [counts, ends, sorted, table, starts, x, y, z, ids, lags, pending, queue] =
+  auto& [counts, ends, sorted, table, starts, x, y, z, ids, lags, pending, queue, open] =
       state.workspace<PlacesWorkspace>();
   state.reserve(starts, (entries + 1) * word);
   for (cl::Buffer* const list : {&x, &y, &ids}) state.reserve(*list, room * word);
@@ -118,16 +119,22 @@ Report exact_diagram_by_places(Filling& filling, DiagramState& state) {
     while (std::size_t{1} << table_bits < 2 * items_of_places) ++table_bits;
     const std::size_t of_table = (std::size_t{1} << table_bits) + items_of_places;
     state.reserve(table, of_table * word);
+    const auto patches_along = [&](int axis, int side_of_box) {
+      return boxes_along(size.s[axis], have_z ? BOXES_ALONG * side_of_box : PATCH);
+    };
+    const std::size_t patches =
+        patches_along(0, BOX_WIDTH) * patches_along(1, BOX_HEIGHT) * patches_along(2, BOX_DEPTH);
+    state.reserve(pending, patches * word);
+    state.reserve(queue, (BEFORE_QUEUE + patches) * word);
     const cl::Event begin = fill(state.device, starts, cl_uint{0}, entries + 1);
     fill(state.device, table, ~cl_uint{0}, of_table);
     kernel("find_repeats", group)
-        .over_items(items_of_places, given.places, given_ids, has_ids, of_seeds, count, table_bits, table);
-    kernel("count_places", group)
-        .over_items(items_of_places, given.places, table_bits, table, count, bits, size, starts);
+        .over_items(items_of_places, given.places, given_ids, has_ids, of_seeds, count, table_bits, table,
+                    bits, size, starts);
     kernel("start_bins", items_of_row).over_items(rows * items_of_row, starts, bits, size);
     kernel("list_places", group)
         .over_items(items_of_places, given.places, table_bits, table, count, bits, size, of_seeds, starts, x,
-                    y, of_z, ids, of_lags);
+                    y, of_z, ids, of_lags, queue);
     // Lambdas take no structured bindings but by names of their own.
     const auto label = [&, &of_starts = starts, &of_x = x, &of_y = y, &of_ids = ids](
                            const char* name, std::size_t items_of_group, std::size_t groups,
@@ -136,21 +143,32 @@ Report exact_diagram_by_places(Filling& filling, DiagramState& state) {
           .over_items(groups * items_of_group, of_starts, of_x, of_y, of_z, of_ids, of_lags, given.order,
                       has_ids, bits, size, given.first, given.last, state.labels, more...);
     };
-    const std::size_t items = device.tuning().patch_items,
-                      items_of_crowd = std::min<std::size_t>(items, MOST_OF_CROWD_ITEMS);
-    if (grid.has_voxels()) {
-      const std::size_t boxes = boxes_along(grid.width(), is_flat ? CROWD_SIDE : BOX_WIDTH) *
-                                boxes_along(grid.height(), is_flat ? CROWD_SIDE : BOX_HEIGHT) *
-                                boxes_along(grid.depth(), BOX_DEPTH);
-      return filling.commit(0, begin,
-                            label(is_flat ? "label_squares" : "label_boxes", items_of_crowd, boxes));
+    const std::size_t items = device.tuning().patch_items;
+    if (is_flat) {
+      const std::size_t squares =
+          boxes_along(grid.width(), CROWD_SIDE) * boxes_along(grid.height(), CROWD_SIDE);
+      return filling.commit(0, begin, label("label_squares", items, squares));
     }
-    const std::size_t patches = boxes_along(grid.width(), PATCH) * boxes_along(grid.height(), PATCH);
-    state.reserve(pending, patches * word);
-    state.reserve(queue, (1 + patches) * word);
     constexpr std::size_t crowds_along = PATCH / CROWD_SIDE, crowds_of_patch = crowds_along * crowds_along;
-    label("stamp_patches", items, patches, pending, queue);
+    const bool is_stamped =
+        !have_z || (options.extent == Extent::fractions && grid.spacing() == std::array{1, 1, 1});
+    if (is_stamped) {
+      state.reserve(open, patches * MOST_OPEN * word);
+      // In volumes they have more local memory each.
+      const std::size_t items_of_stamps = have_z ? std::max(items, std::min(2 * items, group)) : items;
+      label("stamp_patches", items_of_stamps, patches, pending, queue, open);
+      constexpr std::size_t most_often_open = MOST_OPEN / 16;  // of a patch
+      label("label_open", group, (patches * most_often_open - 1) / group + 1, queue, open);
+    } else {
+      fill(state.device, pending, cl_uint{1}, patches);
+    }
+    if (have_z) {
+      constexpr std::size_t boxes_of_patch = BOXES_ALONG * BOXES_ALONG * BOXES_ALONG;
+      return filling.commit(0, begin, label("label_boxes", items, boxes_of_patch * patches, pending));
+    }
     label("list_patches", items, patches, pending, queue);
+    // A few crowds may have far more places than all others, which wait for them then.
+    const std::size_t items_of_crowd = std::max(items, std::min<std::size_t>(group, CROWD_SIDE * CROWD_SIDE));
     const cl::Event end = label("label_crowds", items_of_crowd, crowds_of_patch * patches, queue);
     return filling.commit(0, begin, end);
   }

@@ -146,13 +146,15 @@ BOOST_AUTO_TEST_CASE(working_memory_counts_what_is_held) {
 }
 
 BOOST_AUTO_TEST_CASE(a_build_failure_shows_device_options_and_log) {
-  // A vector width that does not exist makes the kernel's types unknown.
+  // A vector width that does not exist makes the kernel's types unknown. NVIDIA's log has no names of files.
+  const bool names_files = test_device().platform_name() != "NVIDIA CUDA";
   check_error(
       [] {
         program_for(test_device(), "flooding/jump_flooding.cl",
                     "-DVOROCL_WIDTH=5 -DVOROCL_GUARD=16 -DVOROCL_EUCLIDEAN");
       },
-      {"flooding/jump_flooding.cl", test_device().name(), "-DVOROCL_WIDTH=5", "vector.cl:", "uint5"});
+      {"flooding/jump_flooding.cl", test_device().name(), "-DVOROCL_WIDTH=5",
+       names_files ? "vector.cl:" : "<kernel>:", "uint5"});
 }
 
 BOOST_AUTO_TEST_CASE(threads_may_share_a_device_or_own_one) {

@@ -26,7 +26,8 @@ const std::vector<Engine>& engines() {
     std::vector<Engine> made;
     for (const ListLength lists : both_lengths) {
       const std::string of_lists = std::string(", ") + name_of(lists);
-      made.push_back({"vector shape" + of_lists, shaped(Shape::vector, lists), lists});
+      if (takes(Shape::vector))
+        made.push_back({"vector shape" + of_lists, shaped(Shape::vector, lists), lists});
       for (const std::size_t items : {64u, 256u}) {
         if (items != 64 && lists != ListLength::full) continue;
         made.push_back({"group shape, " + std::to_string(items) + " items" + of_lists,

@@ -43,6 +43,10 @@ namespace {
 const Grid grid(24, 16);
 const std::vector<Pixel> pixels = random_pixels(grid, 5, 1);
 
+/// The program of exact diagrams, and its first kernel.
+bool is_in_groups() { return test_device().tuning().shape == Shape::group; }
+std::string file_of_program() { return is_in_groups() ? "exact/group/diagram.cl" : "exact/diagram.cl"; }
+
 /// The exact labels by a new device, whose programs are built anew.
 std::vector<std::uint32_t> labels() {
   const Device device = Device::select();
@@ -69,7 +73,7 @@ BOOST_AUTO_TEST_CASE(kernels_of_a_folder_replace_the_embedded_ones) {
   const Variable variable("VOROCL_KERNEL_DIR", folder / "");
   BOOST_TEST((labels() == true_labels()));
   folder.file("core/position.cl", "#error position.cl of the folder\n");
-  check_error([] { labels(); }, {"position.cl of the folder", "exact/diagram.cl"});
+  check_error([] { labels(); }, {"position.cl of the folder", file_of_program()});
 }
 
 BOOST_AUTO_TEST_CASE(a_kernel_that_is_not_in_the_folder_is_an_error) {
@@ -87,9 +91,11 @@ BOOST_AUTO_TEST_CASE(a_kernel_that_is_not_in_the_folder_is_an_error) {
 BOOST_AUTO_TEST_CASE(an_empty_kernel_file_is_read_like_any_other) {
   const TemporaryFolder folder;
   write_kernels(folder);
-  folder.file("exact/diagram.cl", "");
+  folder.file(file_of_program(), "");
   const Variable variable("VOROCL_KERNEL_DIR", folder / "");
-  check_error([] { labels(); }, {"making the kernel count_chunks", "no such kernel"});
+  check_error([] { labels(); },
+              {std::string("making the kernel ") + (is_in_groups() ? "find_repeats" : "count_chunks"),
+               "no such kernel"});
 }
 
 BOOST_AUTO_TEST_CASE(build_options_of_the_environment) {
@@ -123,7 +129,9 @@ BOOST_AUTO_TEST_CASE(programs_are_dumped) {
     BOOST_TEST(!content_of(folder / name).empty());
     sources += name.find(".cl") != std::string::npos ? 1 : 0;
     binaries += name.find(".bin") != std::string::npos ? 1 : 0;
-    if (name.rfind("exact-diagram-", 0) == 0 && name.find(".cl") != std::string::npos) source = name;
+    if (name.rfind(is_in_groups() ? "exact-group-diagram-" : "exact-diagram-", 0) == 0 &&
+        name.find(".cl") != std::string::npos)
+      source = name;
   }
   BOOST_TEST(sources == binaries);
   BOOST_TEST_REQUIRE(source != "");
@@ -132,7 +140,7 @@ BOOST_AUTO_TEST_CASE(programs_are_dumped) {
   BOOST_TEST(content_of(folder / source).find("#include") == std::string::npos);
   const TemporaryFolder kernels;
   write_kernels(kernels);
-  kernels.file("exact/diagram.cl", content_of(folder / source));
+  kernels.file(file_of_program(), content_of(folder / source));
   const Variable variable("VOROCL_KERNEL_DIR", kernels / "");
   BOOST_TEST((labels() == true_labels()));
 }

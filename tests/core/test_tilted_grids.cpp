@@ -182,8 +182,8 @@ BOOST_AUTO_TEST_CASE(labels_are_those_of_all_images) {
   for (unsigned number = 0; number < cases; ++number) {
     const RandomCase random(number);
     const Metric metric = number % 7 == 0 ? Metric::manhattan : Metric::euclidean;
-    const Engine& engine =
-        long_tests ? engines()[number % engines().size()] : engine_for(*random.window, metric, number);
+    const Engine& engine = long_tests && takes(Shape::vector) ? engines()[number % engines().size()]
+                                                              : engine_for(*random.window, metric, number);
     Diagram diagram(engine.device, *random.window);
     exact_diagram(Seeds(engine.device, random.box.grid(), random.points, {Outside::count, random.snap}),
                   diagram, {metric});
@@ -199,8 +199,9 @@ BOOST_AUTO_TEST_CASE(labels_are_those_of_the_weights_of_all_images) {
     RandomCase random(number);
     if (random.snap == Snap::to_pixels) continue;
     const std::vector<double> weights = hard_weights(random.points.size(), 8, random.rng);
-    const Engine& engine = long_tests ? engines()[number % engines().size()]
-                                      : engine_for(*random.window, Metric::euclidean, number);
+    const Engine& engine = long_tests && takes(Shape::vector)
+                               ? engines()[number % engines().size()]
+                               : engine_for(*random.window, Metric::euclidean, number);
     Diagram diagram(engine.device, *random.window);
     exact_diagram(Seeds(engine.device, random.box.grid(), Points(random.points).weighted(weights.data())),
                   diagram);

@@ -36,6 +36,14 @@ inline const Device& test_device() {
   return *device_of_tests();
 }
 
+/// Whether exact diagrams are asked of the device in a shape. A work-item of the vector shape has more memory
+/// of its own than a GPU has for it.
+inline bool takes(Shape shape) {
+  cl_device_type type = 0;
+  clGetDeviceInfo(test_device().cl_device()(), CL_DEVICE_TYPE, sizeof type, &type, nullptr);
+  return shape == Shape::group || (type & CL_DEVICE_TYPE_CPU) != 0;
+}
+
 /// Leaves no work behind: PoCL crashes a process that exits while its threads still build or run a kernel.
 struct FinishAtEnd {
   ~FinishAtEnd() {

@@ -33,7 +33,9 @@ inline std::vector<Pixel> clusters(const Grid& grid, std::size_t count) {
 /// blocks.
 inline std::vector<Device> shapes() {
   const Device& device = test_device();
-  return {device.with_tuning({16, 64, 1}), device.with_tuning({4, 8, 1}), device.with_tuning({1, 32, 8})};
+  const Shape shape = device.tuning().shape;
+  return {device.with_tuning({16, 64, 1, shape}), device.with_tuning({4, 8, 1, shape}),
+          device.with_tuning({1, 32, 8, shape})};
 }
 
 /// Whether a shape is for a grid. Kernels are built anew for grids that are narrower than their vectors: the

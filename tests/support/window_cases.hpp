@@ -20,7 +20,7 @@ struct Engine {
   std::vector<Metric> metrics;  // that tests of both take it for: each pair has kernels of its own to build
 
   bool is_for(Metric metric) const {
-    return std::find(metrics.begin(), metrics.end(), metric) != metrics.end();
+    return takes(device.tuning().shape) && std::find(metrics.begin(), metrics.end(), metric) != metrics.end();
   }
 };
 

@@ -4,7 +4,7 @@
 #                          H100 (sm_90)
 #   amd                    clang compiles it for a Radeon VII (gfx906), an MI200 (gfx90a) and a Radeon RX 6000 (gfx1030)
 #   intel                  Intel's ocloc compiles it for Gen9 (skl), Gen12 (tgllp) and an Arc (dg2), and says what scratch memory it has
-# No kernel may have a stack frame or spilled registers, more registers than its GPU's limit or more than 16 KB of local memory.
+# No kernel may have a stack frame or spilled registers, more registers than its GPU's limit or more than 20 KB of local memory.
 # Prints the table. Exits with 77 where a tool is missing; tools/setup.sh check (for Intel: intel) installs them, and these name others:
 #   CLANG   a clang with the maker's target       LIBCLC   the folder of libclc's .bc files of the same version
 #   PTXAS   ptxas, of CUDA 11.4 or newer          OCLOC    ocloc, of Intel's compute runtime
@@ -18,7 +18,7 @@ if [ -z "${OCLOC:-}" ] && ! OCLOC=$(command -v ocloc); then
   OCLOC=$cache/ocloc/usr/bin/ocloc
   libraries=$(printf '%s:' "$cache"/ocloc/usr/lib/{*-linux-gnu,llvm-*/lib})
 fi
-most_local=16384
+most_local=20480
 # With so many registers, half of the warps that an A100 or an H100 can hold fit beside each other (32 of 64 on a multiprocessor), 4
 # of the 10 waves of a SIMD of gfx906, which has 256 registers per lane, 4 of the 8 of gfx90a, which has 512, and all 16 of gfx1030.
 most_registers='sm_80 64 sm_90 64 gfx906 64 gfx90a 128 gfx1030 64'

@@ -8,25 +8,22 @@
 
 #define CROWD_PIXELS (CROWD_SIDE * CROWD_SIDE)
 #define CROWD_RUN 2  // pixels below each other that an item compares at a time
+#define CROWD_RUNS (CROWD_PIXELS / CROWD_RUN)
+#define MOST_SHARES (IS_VOLUME ? 1 : 2)  // of a part's places: where there are more items than runs
 #ifndef MOST_OF_PART
-#define MOST_OF_PART \
-  192  // a part is full from so many places on, and then there are BATCH more from each item at most
+#define MOST_OF_PART 192  // a part is full from so many places on, and then there is a batch more at most
 #endif
-#define BATCH 4  // places that an item looks at between two looks at how full the part is
-#define PART_ROOM (MOST_OF_PART + BATCH * MOST_OF_CROWD_ITEMS)
+#define BATCH 256  // places that are looked at between two looks at how full the part is
+#define PART_ROOM (MOST_OF_PART + BATCH)
 
 typedef struct {
   int4 place[PART_ROOM];  // from the centre of the box, and its lag
   uint at[PART_ROOM];
   uint count;
-  ulong least[CROWD_PIXELS];  // by runs; NO_WINNER before there is one
-  uint winner[CROWD_PIXELS];
+  ulong least[MOST_SHARES * CROWD_PIXELS];  // by runs; NO_WINNER before there is one
+  uint winner[MOST_SHARES * CROWD_PIXELS];
 } crowd_t;
 #define NO_WINNER (ULONG_MAX / 2)
-
-static inline ulong length_along(int way) {
-  return IS_MANHATTAN ? (ulong)abs(way) : (ulong)((long)way * way);
-}
 
 // Run i of a box begins at this pixel: runs along x, then along y and z. All sides along y are even.
 static inline int4 start_of_run(int i, box_t b) {
@@ -36,13 +33,14 @@ static inline int4 start_of_run(int i, box_t b) {
 
 // Lets the places of a part stand against those that won so far.
 static inline void compare_part(local crowd_t* crowd, const scene_t* scene, box_t box, int count) {
-  for (int run = ITEM(); run < CROWD_PIXELS / CROWD_RUN; run += ITEMS()) {
-    const int4 start = start_of_run(run, box);
+  const int shares = clamp(ITEMS() / CROWD_RUNS, 1, MOST_SHARES);
+  for (int at_run = ITEM(); at_run < shares * CROWD_RUNS; at_run += ITEMS()) {
+    const int4 start = start_of_run(at_run % CROWD_RUNS, box);
     const int4 from = centre_of(box_at(start.x, start.y, start.z, 1, 1, 1)) -
                       centre_of(box_at(0, 0, 0, box.sx, box.sy, box.sz));
-    ulong2 least = vload2((size_t)run, crowd->least);
-    uint2 winner = vload2((size_t)run, crowd->winner);
-    for (int i = 0; i < count; ++i) {
+    ulong2 least = vload2((size_t)at_run, crowd->least);
+    uint2 winner = vload2((size_t)at_run, crowd->winner);
+    for (int i = at_run / CROWD_RUNS; i < count; i += shares) {
       const int4 place = crowd->place[i];
       ulong across = length_along(place.x - from.x);
       if (IS_VOLUME) across += length_along(place.z - from.z);
@@ -57,9 +55,20 @@ static inline void compare_part(local crowd_t* crowd, const scene_t* scene, box_
         }
       }
     }
-    vstore2(least, (size_t)run, crowd->least);
-    vstore2(winner, (size_t)run, crowd->winner);
+    vstore2(least, (size_t)at_run, crowd->least);
+    vstore2(winner, (size_t)at_run, crowd->winner);
   }
+}
+
+// The label of a pixel by what won of each share.
+static inline uint winner_of(local const crowd_t* crowd, const scene_t* scene, int pixel) {
+  int best = pixel;
+  for (int other = pixel + CROWD_PIXELS; other < MOST_SHARES * CROWD_PIXELS; other += CROWD_PIXELS) {
+    const ulong least = crowd->least[best], distance = crowd->least[other];
+    if (distance == NO_WINNER || distance > least) continue;
+    if (distance < least || is_first(scene, crowd->winner[other], crowd->winner[best])) best = other;
+  }
+  return crowd->least[best] == NO_WINNER ? NO_LABEL : scene->ids[crowd->winner[best]];
 }
 
 INLINE void label_crowd(local crowd_t* crowd, local ranges_t* ranges, local rivals_t* rivals,
@@ -67,14 +76,14 @@ INLINE void label_crowd(local crowd_t* crowd, local ranges_t* ranges, local riva
   const spans_t spans = spans_of(box);
   const int4 centre = centre_of(box);
   const bool whole = is_whole(scene, box);
-  for (int pixel = ITEM(); pixel < CROWD_PIXELS; pixel += ITEMS()) crowd->least[pixel] = NO_WINNER;
+  for (int i = ITEM(); i < MOST_SHARES * CROWD_PIXELS; i += ITEMS()) crowd->least[i] = NO_WINNER;
   if (ITEM() == 0) crowd->count = 0;
   find_rivals(rivals, ranges, scene, box);
   for (int begin = 0; begin < count_ranges(ranges); begin += ranges_of_chunk()) {
     const uint places = make_ranges(ranges, scene, begin);
     int range = 0;
-    for (uint batch = 0; batch < places; batch += (uint)ITEMS() * BATCH) {
-      const uint end = min(batch + (uint)ITEMS() * BATCH, places);
+    for (uint batch = 0; batch < places; batch += BATCH) {
+      const uint end = min(batch + BATCH, places);
       for (uint i = batch + (uint)ITEM(); i < end; i += (uint)ITEMS()) {
         uint at;
         const int4 place = place_from(ranges, scene, i, centre, &range, &at);
@@ -96,33 +105,37 @@ INLINE void label_crowd(local crowd_t* crowd, local ranges_t* ranges, local riva
     const int column = pixel % box.sx, row = pixel / box.sx;
     const int at = (row / CROWD_RUN * box.sx + column) * CROWD_RUN + row % CROWD_RUN;
     show_label(scene, whole, box.x + column, box.y + row % box.sy, box.z + row / box.sy,
-               crowd->least[at] == NO_WINNER ? NO_LABEL : scene->ids[crowd->winner[at]]);
+               winner_of(crowd, scene, at));
   }
 }
 
 #if IS_VOLUME
 
-static inline box_t box_of_volume(int4 size, int sx, int sy, int sz) {
-  const int number = (int)get_group_id(0), columns = (size.x - 1) / sx + 1, rows = (size.y - 1) / sy + 1;
-  return box_at(number % columns * sx, number / columns % rows * sy, number / columns / rows * sz, sx, sy,
-                sz);
-}
-
-kernel void label_boxes(SCENE_PARAMETERS) {
+// Labels a box of a patch that is pending.
+kernel void label_boxes(SCENE_PARAMETERS, global const uint* restrict pending) {
   local crowd_t crowd;
   local ranges_t ranges;
   local rivals_t rivals;
+  const int group = (int)get_group_id(0), patch = group / (BOXES_ALONG * BOXES_ALONG * BOXES_ALONG);
+  if (!pending[patch]) return;
   const scene_t scene = SCENE_OF_PARAMETERS;
-  label_crowd(&crowd, &ranges, &rivals, &scene, box_of_volume(size, BOX_WIDTH, BOX_HEIGHT, BOX_DEPTH));
+  box_t box = box_of_patch(&scene, patch);
+  box.x += group % BOXES_ALONG * BOX_WIDTH;
+  box.y += group / BOXES_ALONG % BOXES_ALONG * BOX_HEIGHT;
+  box.z += group / (BOXES_ALONG * BOXES_ALONG) % BOXES_ALONG * BOX_DEPTH;
+  if (!is_in_grid(&scene, box)) return;
+  label_crowd(&crowd, &ranges, &rivals, &scene, box_at(box.x, box.y, box.z, BOX_WIDTH, BOX_HEIGHT, BOX_DEPTH));
 }
 
-// The same of a volume of one slice.
+// The same of a volume of one slice, all of it.
 kernel void label_squares(SCENE_PARAMETERS) {
   local crowd_t crowd;
   local ranges_t ranges;
   local rivals_t rivals;
   const scene_t scene = SCENE_OF_PARAMETERS;
-  label_crowd(&crowd, &ranges, &rivals, &scene, box_of_volume(size, CROWD_SIDE, CROWD_SIDE, 1));
+  const int group = (int)get_group_id(0), columns = (size.x - 1) / CROWD_SIDE + 1;
+  label_crowd(&crowd, &ranges, &rivals, &scene,
+              box_at(group % columns * CROWD_SIDE, group / columns * CROWD_SIDE, 0, CROWD_SIDE, CROWD_SIDE, 1));
 }
 
 #else
@@ -137,7 +150,7 @@ kernel void label_crowds(SCENE_PARAMETERS, global const uint* restrict queue) {
   const int group = (int)get_group_id(0), number = group / (BOXES_OF_PATCH * BOXES_OF_PATCH);
   if (number >= (int)queue[0]) return;
   const scene_t scene = SCENE_OF_PARAMETERS;
-  const box_t patch = box_of_patch(&scene, (int)queue[1 + number]);
+  const box_t patch = box_of_patch(&scene, (int)queue[BEFORE_QUEUE + number]);
   const int left = group % BOXES_OF_PATCH, top = group / BOXES_OF_PATCH % BOXES_OF_PATCH;
   const box_t box =
       box_at(patch.x + left * CROWD_SIDE, patch.y + top * CROWD_SIDE, 0, CROWD_SIDE, CROWD_SIDE, 1);

@@ -10,7 +10,7 @@
 
 #include "exact/bins.cl"
 
-// Finds who stands for each place in a table of 2^table_bits places by their hashes, which is NOT_SEEN at
+// Finds who stands for each place, and counts those of each bin, in a table of 2^table_bits places by their hashes, which is NOT_SEEN at
 // first, as what is behind it, `lowest`: that gets the lowest id of the places that one stands for, and stays
 // so of all others. (Ids are the places' own numbers unless they are given.)
 static inline int4 place_and_lag(given_t given, uint id, global const int* lags) {
@@ -18,8 +18,9 @@ static inline int4 place_and_lag(given_t given, uint id, global const int* lags)
   return (int4)(place.xyz, IS_WEIGHTED ? lags[id] : 0);
 }
 kernel void find_repeats(global const given_t* restrict given, global const uint* restrict ids, int has_ids,
-                         global const int* restrict lags, uint count, uint table_bits,
-                         global uint* restrict table) {
+                         global const int* restrict lags, uint count, uint table_bits, global uint* restrict table,
+                         int4 bits, int4 size, global uint* restrict starts) {
+  const bins_t bins = bins_of(bits, size);
   const uint item = (uint)get_global_id(0);
   if (item >= count || !is_given(given[item])) return;
   const uint id = has_ids ? ids[item] : item;
@@ -33,16 +34,7 @@ kernel void find_repeats(global const given_t* restrict given, global const uint
     first = atomic_cmpxchg(table + at, NOT_SEEN, item);
   }
   atomic_min(table + (1u << table_bits) + (first == NOT_SEEN ? item : first), id);
-}
-
-kernel void count_places(global const given_t* restrict given, uint table_bits,
-                         global const uint* restrict table, uint count, int4 bits, int4 size,
-                         global uint* restrict starts) {
-  const bins_t bins = bins_of(bits, size);
-  const uint item = (uint)get_global_id(0);
-  global const uint* const lowest = table + (1u << table_bits);
-  if (item >= count || lowest[item] == NOT_SEEN) return;
-  atomic_inc(starts + bin_of(&bins, place_of(given[item])) + 1);
+  if (first == NOT_SEEN) atomic_inc(starts + bin_of(&bins, own) + 1);
 }
 
 // A work-group gives a row of bins its part of the list. Behind the bins stands how much is given.
@@ -78,15 +70,17 @@ kernel void start_bins(global uint* restrict starts, int4 bits, int4 size) {
   }
 }
 
+// Of what is labelled then nothing is queued as yet.
 kernel void list_places(global const given_t* restrict given, uint table_bits,
                         global const uint* restrict table, uint count, int4 bits, int4 size,
                         global const int* restrict lags_of_seeds, global uint* restrict starts,
                         global int* restrict xs, global int* restrict ys, global int* restrict zs,
-                        global uint* restrict ids, global int* restrict lags) {
+                        global uint* restrict ids, global int* restrict lags, global uint* restrict queue) {
   const bins_t bins = bins_of(bits, size);
   const places_of_bins_t places = {xs, ys, zs, ids, lags};
   const uint item = (uint)get_global_id(0);
   global const uint* const lowest = table + (1u << table_bits);
+  if (item < BEFORE_QUEUE) queue[item] = 0;
   if (item >= count || lowest[item] == NOT_SEEN) return;
   const int4 place = place_of(given[item]);
   put(&places, atomic_inc(starts + bin_of(&bins, place) + 1), place, lowest[item], lags_of_seeds);

@@ -224,7 +224,7 @@ kernel void list_patches(SCENE_PARAMETERS, global const uint* restrict pending, 
   const uint bits_below = bits_of_rank((uint)count), mask = (1u << bits_below) - 1;
   const int runs = boxes.failed ? 0 : RUNS;
   const int box = box_of_item(), left = box % 2 * BOX, top = box / 2 * BOX;
-  if (ITEM() == 0 && runs == 0) queue[1 + atomic_inc(queue)] = (uint)get_group_id(0);
+  if (ITEM() == 0 && runs == 0) queue[BEFORE_QUEUE + atomic_inc(queue)] = (uint)get_group_id(0);
   for (int run = item_of_box(); run < runs; run += items_of_box()) {
     const int column = left + run % BOX, row = top + run / BOX * RUN;
     int8 least = (int8)INT_MAX;

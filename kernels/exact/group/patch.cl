@@ -20,9 +20,27 @@
   { bins_of(bits, size), size, PERIODIC_AXES, starts, xs, ys, zs, ids, lags, 0, has_images ? order : 0, first, last, \
     labels }
 
+// Of volumes those of points are stamped, whose voxels are cubes: dense seeds at centres are marks of a mask.
+#define IS_STAMPED (!IS_VOLUME || (FRACTION_BITS > 1 && !IS_SPACED))
+
+#if IS_VOLUME
+#define PATCH_WIDTH (BOX_WIDTH * BOXES_ALONG)
+#define PATCH_HEIGHT (BOX_HEIGHT * BOXES_ALONG)
+#define PATCH_DEPTH (BOX_DEPTH * BOXES_ALONG)
+#else
+#define PATCH_WIDTH PATCH
+#define PATCH_HEIGHT PATCH
+#define PATCH_DEPTH 1
+#endif
+#define PIXELS_OF_PATCH (PATCH_WIDTH * PATCH_HEIGHT * PATCH_DEPTH)
+static inline box_t pixel_of(box_t patch, int i) {
+  const int row = i / PATCH_WIDTH;
+  return box_at(patch.x + i % PATCH_WIDTH, patch.y + row % PATCH_HEIGHT, patch.z + row / PATCH_HEIGHT, 1, 1, 1);
+}
 static inline box_t box_of_patch(const scene_t* scene, int patch) {
-  const int across = ((scene->size.x - 1) >> PATCH_BITS) + 1;
-  return box_at(patch % across * PATCH, patch / across * PATCH, 0, PATCH, PATCH, 1);
+  const int columns = (scene->size.x - 1) / PATCH_WIDTH + 1, rows = (scene->size.y - 1) / PATCH_HEIGHT + 1;
+  return box_at(patch % columns * PATCH_WIDTH, patch / columns % rows * PATCH_HEIGHT,
+                patch / columns / rows * PATCH_DEPTH, PATCH_WIDTH, PATCH_HEIGHT, PATCH_DEPTH);
 }
 
 // Where all pixels of a box get labels nothing is asked of each.
@@ -36,6 +54,11 @@ static inline void show_label(const scene_t* scene, bool whole, int x, int y, in
   const int row = IS_VOLUME ? z * scene->size.y + y : y;
   scene->labels[(size_t)row * (size_t)scene->size.x + (size_t)x] =
       whole || has_label(scene, x, y, z) ? label : NO_LABEL;
+}
+
+// How long a way is; by the Euclidean metric its square.
+static inline ulong length_along(int way) {
+  return IS_MANHATTAN ? (ulong)abs(way) : (ulong)((long)way * way);
 }
 
 // Of places as near: the index has no two seeds that are at one place and could both win.
