@@ -38,25 +38,17 @@ kernel void nearest_columns(global const images_t* images, global const ulong* r
 }
 
 // Along y: the way to the nearest mark, in a volume of each slice.
-kernel void end_bands_along_y(global const images_t* images, global const short* restrict columns,
-                              global int* restrict between) {
-  find_ends(images, false, columns, 0, between, 0);
-}
-kernel void fill_bands_along_y(global const images_t* images, global const short* restrict columns,
-                               global int* restrict between) {
-  local int sites[(BAND + 1) * STRIP];
-  find_between_ends(images, false, columns, 0, between, 0, sites);
+kernel void nearest_along_y(global const images_t* images, global const short* restrict columns,
+                            global int* restrict between) {
+  local band_t band;
+  find_along_lines(images, false, columns, 0, between, 0, &band);
 }
 
 // Along z: how many slices away the nearest mark is.
-kernel void end_bands_along_z(global const images_t* images, global const int* restrict between,
-                              global short* restrict slices) {
-  find_ends(images, true, 0, between, 0, slices);
-}
-kernel void fill_bands_along_z(global const images_t* images, global const int* restrict between,
-                               global short* restrict slices) {
-  local int sites[(BAND + 1) * STRIP];
-  find_between_ends(images, true, 0, between, 0, slices, sites);
+kernel void nearest_along_z(global const images_t* images, global const int* restrict between,
+                            global short* restrict slices) {
+  local band_t band;
+  find_along_lines(images, true, 0, between, 0, slices, &band);
 }
 
 static inline int at_end(int place, int way, int size) {
