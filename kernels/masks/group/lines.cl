@@ -93,9 +93,9 @@ INLINE nearest_site_t nearest_of_all(const line_t* l, const bool along_z, global
                                      global const int* between, int place, int first, int step) {
   nearest_site_t n = {MOST_SQUARED, NO_SITE};
 #pragma unroll 1
-  for (int k = first; k <= l->reach && squared(k, l->square) <= n.square; k += AT_ONCE * step) {
+  for (int k = first; k <= l->reach && squared(k, l->square) <= n.square; k += LOADS * step) {
 #pragma unroll
-    for (int i = 0; i < 2 * AT_ONCE; ++i) {
+    for (int i = 0; i < 2 * LOADS; ++i) {
       const int way = min(k + i / 2 * step, l->reach);
       // That of an end is none the nearer for it.
       const int site = clamp(i % 2 == 0 ? place - way : place + way, l->least, l->most);
@@ -104,6 +104,16 @@ INLINE nearest_site_t nearest_of_all(const line_t* l, const bool along_z, global
     }
   }
   return n;
+}
+
+// The same for the middles of a gap, in the order of sites: of those as near the first one counts.
+INLINE void compare_middles(const line_t* l, nearest_site_t* n, squares across, int site, int way, int step) {
+#pragma unroll
+  for (int j = 0; j < MIDDLES; ++j) {
+    const squares distance = distance_of(across, squared(way - j * step, l->square));
+    n[j].site = distance < n[j].square ? site : n[j].site;
+    n[j].square = min(distance, n[j].square);
+  }
 }
 
 // Writes the site of a place.
@@ -176,13 +186,18 @@ INLINE void find_along_lines(global const images_t* images, const bool along_z, 
     for (int j = 0; j < MIDDLES; ++j) n[j].square = MOST_SQUARED, n[j].site = NO_SITE;
 #pragma unroll 1
     for (int i = begin; i < end; ++i) {
-      const squares across = across_to(&l, along_z, columns, known, site - image);
+      const int first = before + gap + step;
+      // Loads take long, and those of several sites wait together.
+      if (site + LOADS <= min(last, image + size - 1) && i + LOADS < end) {
+        squares across[LOADS];
 #pragma unroll
-      for (int j = 0; j < MIDDLES; ++j) {
-        const squares distance = distance_of(across, squared(site - before - gap - (j + 1) * step, l.square));
-        n[j].site = distance < n[j].square ? site : n[j].site;
-        n[j].square = min(distance, n[j].square);
+        for (int k = 0; k < LOADS; ++k) across[k] = across_to(&l, along_z, columns, known, site + k - image);
+#pragma unroll
+        for (int k = 0; k < LOADS; ++k) compare_middles(&l, n, across[k], site + k, site + k - first, step);
+        site += LOADS, i += LOADS;
       }
+      const squares across = across_to(&l, along_z, columns, known, site - image);
+      compare_middles(&l, n, across, site, site - first, step);
       if (site == last) {
 #pragma unroll
         for (int j = 0; j < MIDDLES; ++j) {
