@@ -75,6 +75,7 @@
 // part of a distance that keys hold.
 #ifdef __OPENCL_C_VERSION__
 typedef int cl_int;
+typedef uint cl_uint;
 typedef long cl_long;
 typedef float cl_float;
 #endif
@@ -93,6 +94,12 @@ typedef struct {
   cl_int limits_lengths;               // ... this is set
   cl_int is_unit;                      // the lengths are 1
   cl_int is_volume, wanted, carried, bytes_of_value;
+  cl_uint factor_of_width, factor_of_height;  // see DIVIDE
+  cl_int shift_of_width, shift_of_height;
 } images_t;
+
+// A number below 2^31 / a side, by a product: 2^s is the side or the next power of two, and the factor is
+// 2^(31 + s) / side, rounded up. (Work-items of GPUs divide in some 20 instructions.)
+#define DIVIDE(number, factor, shift) (mul_hi(2 * (number), factor) >> (shift))
 
 #endif

@@ -45,6 +45,14 @@ cl::Buffer costs_of(const Device& device, int size, std::int64_t square, std::in
   return allocate_with(device, costs, "the costs along an axis");
 }
 
+/// What DIVIDE takes for a side.
+void set_division(int side, cl_uint& factor, cl_int& shift) {
+  shift = 0;
+  while (1 << shift < side) ++shift;
+  factor =
+      static_cast<cl_uint>(((std::uint64_t{1} << (31 + shift)) - 1) / static_cast<std::uint64_t>(side) + 1);
+}
+
 int wanted_of(const NearestTargets& targets) {
   int wanted = 0;
   if (targets.distances() != nullptr) {
@@ -156,6 +164,8 @@ cl::Buffer MaskEngine::images_of(const NearestTargets& targets, int carried, boo
   images.is_volume = shape_.is_volume;
   images.wanted = wanted_of(targets);
   images.carried = carried;
+  set_division(shape_.width, images.factor_of_width, images.shift_of_width);
+  set_division(shape_.height, images.factor_of_height, images.shift_of_height);
   images.bytes_of_value = static_cast<cl_int>(bytes_of(targets.type_of_values));
   return allocate_with(device_, &images, sizeof images, "the sizes of an image");
 }

@@ -140,7 +140,7 @@ typedef struct {
 // compared, too. Place 0 is the last one of the band before.
 INLINE int slot_of(int place, int count) { return (place < count ? place : BAND) * STRIP; }
 
-INLINE void find_along_lines(global const images_t* images, const bool along_z, global const short* columns,
+INLINE void find_along_lines(constant images_t* images, const bool along_z, global const short* columns,
                              global const int* known, global int* between, global short* slices, local band_t* b) {
   const images_t e = *images;
   const int size = along_z ? e.depth : e.height;
