@@ -94,14 +94,20 @@ INLINE nearest_site_t nearest_of_all(const line_t* l, const bool along_z, global
   nearest_site_t n = {MOST_SQUARED, NO_SITE};
 #pragma unroll 1
   for (int k = first; k <= l->reach && squared(k, l->square) <= n.square; k += LOADS * step) {
+    int sites[2 * LOADS];
+    squares distances[2 * LOADS], least = MOST_SQUARED;
 #pragma unroll
     for (int i = 0; i < 2 * LOADS; ++i) {
       const int way = min(k + i / 2 * step, l->reach);
       // That of an end is none the nearer for it.
-      const int site = clamp(i % 2 == 0 ? place - way : place + way, l->least, l->most);
-      const squares across = across_to(l, along_z, columns, between, number_of(l, site));
-      compare(l, &n, distance_of(across, squared(way, l->square)), site);
+      sites[i] = clamp(i % 2 == 0 ? place - way : place + way, l->least, l->most);
+      const squares across = across_to(l, along_z, columns, between, number_of(l, sites[i]));
+      distances[i] = distance_of(across, squared(way, l->square));
+      least = min(least, distances[i]);
     }
+    if (least == MOST_SQUARED || least > n.square) continue;  // as most are
+#pragma unroll
+    for (int i = 0; i < 2 * LOADS; ++i) compare(l, &n, distances[i], sites[i]);
   }
   return n;
 }
