@@ -9,7 +9,8 @@
 #define INLINE __attribute__((always_inline)) static inline
 #define NO_MARK 0xffffffffu
 
-INLINE size_t pixels_of(const images_t* e) { return (size_t)e->width * (size_t)e->height * (size_t)e->depth; }
+// (Less than 2^31.)
+INLINE uint pixels_of(const images_t* e) { return (uint)e->width * (uint)e->height * (uint)e->depth; }
 
 #ifdef VOROCL_ONE_LANE
 #define LANES 1

@@ -47,8 +47,13 @@
 #define VECTORS_OF_INTS(longest, strips) \
   ((strips) * (CARRIED_BY_LINE(longest) + (longest)) + INTS_OF_LINE(longest) / STRIP + 1)
 
-// In the group shape: places of a line that a work-group takes, a BAND. The most items that sum counts.
-#define BAND 64
+// In the group shape: places of a line that a work-group takes, a BAND; how many of them divide a gap; the items of the
+// group; of how many sites an item loads at a time what is known. The most items that sum counts.
+#define LOG_BAND 6
+#define BAND (1 << LOG_BAND)
+#define MIDDLES 3
+#define ITEMS_OF_BAND 64
+#define LOADS 2
 #define BANDS_OF(size) (((size) + BAND - 1) / BAND)
 #define MOST_SUMMING 256
 
@@ -70,6 +75,7 @@
 // part of a distance that keys hold.
 #ifdef __OPENCL_C_VERSION__
 typedef int cl_int;
+typedef uint cl_uint;
 typedef long cl_long;
 typedef float cl_float;
 #endif
@@ -88,6 +94,12 @@ typedef struct {
   cl_int limits_lengths;               // ... this is set
   cl_int is_unit;                      // the lengths are 1
   cl_int is_volume, wanted, carried, bytes_of_value;
+  cl_uint factor_of_width, factor_of_height;  // see DIVIDE
+  cl_int shift_of_width, shift_of_height;
 } images_t;
+
+// A number below 2^31 / a side, by a product: 2^s is the side or the next power of two, and the factor is
+// 2^(31 + s) / side, rounded up. (Work-items of GPUs divide in some 20 instructions.)
+#define DIVIDE(number, factor, shift) (mul_hi(2 * (number), factor) >> (shift))
 
 #endif

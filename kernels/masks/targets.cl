@@ -133,8 +133,9 @@ INLINE void store_indices(const nearest_t* n, const images_t* e, const targets_t
   STREAM_LANES(e, uint, select(AS_UINTS(n->column), (uints)NO_MARK, n->none), out, n->lanes);
 }
 
+// (See pixels_of().)
 INLINE size_t index_of_pixel(int x, int y, int z, const images_t* e) {
-  return ((size_t)z * (size_t)e->height + (size_t)y) * (size_t)e->width + (size_t)x;
+  return ((uint)z * (uint)e->height + (uint)y) * (uint)e->width + (uint)x;
 }
 
 INLINE void store_labels(ints labels, int x, int y, int z, int lanes, const images_t* e, const targets_t* t) {

@@ -345,8 +345,8 @@ void SeedsState::place_on_device(std::size_t count, std::shared_ptr<const cl::Bu
   commit(std::make_shared<const SeedsFrame>(std::move(next)), std::vector<bool>(count, true));
 }
 
-void SeedsState::place_marks(std::shared_ptr<const Marks> marks) {
-  const std::size_t count = marks->count();
+void SeedsState::place_marks(std::shared_ptr<Marks> marks) {
+  const std::size_t count = marks->count(kernels);
   check_count(count);
   const std::shared_ptr<cl::Buffer> positions = room_for_positions(count);
   marks->list(kernels, PixelGrid(Window(grid())), *positions);

@@ -83,7 +83,7 @@ struct SeedsState {
   void place_on_device(std::size_t count, std::shared_ptr<const cl::Buffer> positions);
 
   /// Makes the next frame, of a seed for each of these marks.
-  void place_marks(std::shared_ptr<const Marks> marks);
+  void place_marks(std::shared_ptr<Marks> marks);
 
   /// Room for the positions of so many seeds, and one more, that no frame uses.
   std::shared_ptr<cl::Buffer> room_for_positions(std::size_t count);

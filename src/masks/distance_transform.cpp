@@ -176,6 +176,8 @@ Report DistanceTransform::run(const ImageSource& image, const TransformTargets& 
   });
 }
 
-bool DistanceTransform::found() const { return state().has_image && state().marks.count() > 0; }
+bool DistanceTransform::found() const {
+  return state().has_image && state().marks.count(state().kernels) > 0;
+}
 
 }  // namespace vorocl

@@ -77,29 +77,35 @@ void Marks::make_room() {
 
 cl::Event Marks::mark(KernelSet& kernels, const cl::Buffer& pixels, PixelType type, Marked marked) {
   make_room();
-  const bool has_sign = type == PixelType::float32 || type == PixelType::float64,
-             in_groups = device.tuning().shape == Shape::group;
+  const bool has_sign = type == PixelType::float32 || type == PixelType::float64;
   const auto mark_by = [&](Kernel& kernel, std::size_t items) {
     return kernel.over_items(items, pixels, static_cast<cl_int>(bytes_of(type)), cl_int{has_sign},
                              cl_uint{marked == Marked::zeros ? 0u : 0xffffu}, shape.width,
                              static_cast<cl_int>(shape.rows()), bits, counts);
   };
   cl::Event first;
-  if (in_groups) {
+  if (device.tuning().shape == Shape::group) {
     first = fill(device, counts, cl_uint{0}, shape.rows());
     mark_by(mask_kernel(kernels, device, "mark_words"), shape.rows() * shorts_of_row());
   } else {
     first = mark_by(mask_kernel(kernels, device, "mark_pixels").in_groups_of(1),
                     std::min(items_of(device), shape.rows()));
   }
-  const std::size_t summing = in_groups ? device.tuning().patch_items : 1;
-  mask_kernel(kernels, device, "sum_counts")
-      .in_groups_of(summing)
-      .over_items(summing, counts, static_cast<cl_int>(shape.rows()));
+  is_summed_ = false;
   return first;
 }
 
+void Marks::sum(KernelSet& kernels) {
+  if (is_summed_) return;
+  const std::size_t items = device.tuning().shape == Shape::group ? device.tuning().patch_items : 1;
+  mask_kernel(kernels, device, "sum_counts")
+      .in_groups_of(items)
+      .over_items(items, counts, static_cast<cl_int>(shape.rows()));
+  is_summed_ = true;
+}
+
 void Marks::rank(KernelSet& kernels) {
+  sum(kernels);
   const std::size_t words_of_row = shorts_of_row() * sizeof(cl_ushort) / sizeof(cl_ulong);
   if (starts() == nullptr)
     starts = allocate(device, shape.rows() * words_of_row * word, "the marks of an image");
@@ -108,7 +114,8 @@ void Marks::rank(KernelSet& kernels) {
                   static_cast<cl_int>(words_of_row), starts);
 }
 
-std::size_t Marks::count() const {
+std::size_t Marks::count(KernelSet& kernels) {
+  sum(kernels);
   cl_uint found = 0;
   check(clEnqueueReadBuffer(device.queue()(), counts(), CL_TRUE, shape.rows() * word, word, &found, 0,
                             nullptr, nullptr),

@@ -57,13 +57,18 @@ struct Marks {
   void rank(KernelSet& kernels);
 
   /// How many marks there are. Waits.
-  std::size_t count() const;
+  std::size_t count(KernelSet& kernels);
 
   /// Writes the positions of the marks by their numbers, and `empty` behind them; see Placement::positions.
   void list(KernelSet& kernels, const PixelGrid& grid, const cl::Buffer& positions) const;
 
  private:
   void make_room();
+
+  /// Counts come to stand before each row. Few ask for them, so it waits for these.
+  void sum(KernelSet& kernels);
+
+  bool is_summed_ = false;
 };
 
 /// Kernels of the mask engine, which take sizes and periods as arguments: one program serves all images.

@@ -45,6 +45,14 @@ cl::Buffer costs_of(const Device& device, int size, std::int64_t square, std::in
   return allocate_with(device, costs, "the costs along an axis");
 }
 
+/// What DIVIDE takes for a side.
+void set_division(int side, cl_uint& factor, cl_int& shift) {
+  shift = 0;
+  while (1 << shift < side) ++shift;
+  factor =
+      static_cast<cl_uint>(((std::uint64_t{1} << (31 + shift)) - 1) / static_cast<std::uint64_t>(side) + 1);
+}
+
 int wanted_of(const NearestTargets& targets) {
   int wanted = 0;
   if (targets.distances() != nullptr) {
@@ -69,13 +77,16 @@ MaskEngine::MaskEngine(const Device& device, const ImageShape& shape, const Pixe
       whole_(whole),
       metric_(metric),
       nothing_(allocate(device, word, "the mask engine")) {
-  const auto most_square = [](int side, std::int64_t square) {
-    return std::int64_t{side - 1} * (side - 1) * square;
+  const bool in_groups = device.tuning().shape == Shape::group;
+  const auto most_square = [&](int side, std::int64_t square, bool is_periodic) {
+    // Groups compare sites, too, whose images are nearer.
+    const std::int64_t way = in_groups && is_periodic ? side + side / 2 : side - 1;
+    return way * way * square;
   };
   const auto [x, y, z] = whole.squares;
-  most_in_slice_ = most_square(shape.width, x) + most_square(shape.height, y);
-  most_ = most_in_slice_ + most_square(shape.depth, z);
-  if (device.tuning().shape == Shape::group) return;
+  most_in_slice_ = most_square(shape.width, x, false) + most_square(shape.height, y, shape.periodic_y);
+  most_ = most_in_slice_ + most_square(shape.depth, z, shape.periodic_z);
+  if (in_groups) return;
   along_y_ = make_pass(shape.height, y, most_in_slice_, std::max(x, y));
   if (shape.depth > 1) {
     along_z_ = make_pass(shape.depth, z, most_, std::max({x, y, z}));
@@ -153,6 +164,8 @@ cl::Buffer MaskEngine::images_of(const NearestTargets& targets, int carried, boo
   images.is_volume = shape_.is_volume;
   images.wanted = wanted_of(targets);
   images.carried = carried;
+  set_division(shape_.width, images.factor_of_width, images.shift_of_width);
+  set_division(shape_.height, images.factor_of_height, images.shift_of_height);
   images.bytes_of_value = static_cast<cl_int>(bytes_of(targets.type_of_values));
   return allocate_with(device_, &images, sizeof images, "the sizes of an image");
 }
@@ -180,29 +193,27 @@ cl::Event MaskEngine::run_last(Kernel& kernel, std::size_t count, const NearestT
 
 Commands MaskEngine::run_in_groups(KernelSet& kernels, const Marks& marks, const NearestTargets& targets,
                                    MaskWorkspace& room, WorkingMemory& memory) {
-  const std::size_t pixels = shape_.pixels(), items = device_.tuning().patch_items;
+  const std::size_t pixels = shape_.pixels();
   memory.reserve(room.columns, pixels * sizeof(cl_ushort));
   memory.reserve(room.between, pixels * word);
   const cl::Buffer images = images_of(targets, carried_for(targets), false);
-  const bool is_far = most_ >= std::numeric_limits<cl_uint>::max();
+  // The two greatest numbers say that there is no mark.
+  const bool is_far = most_ >= std::numeric_limits<cl_uint>::max() - 1;
   const auto kernel = [&](const char* name) -> Kernel& {
     return mask_kernel(kernels, device_, name,
                        {metric_, Neighbourhood::moore, is_far ? Extent::far : Extent::grid});
   };
-  const auto along = [&](const char* ends, const char* others, int size, const auto&... buffers) {
-    const auto width = static_cast<std::size_t>(shape_.width),
-               lines = pixels / static_cast<std::size_t>(size);
-    const std::size_t bands = static_cast<std::size_t>(BANDS_OF(size));
-    kernel(ends).over_items(bands * lines, images, buffers...);
-    kernel(others).in_groups_of(items).over_items(bands * (lines / width) * STRIPS_OF(width) * items, images,
-                                                  buffers...);
+  const auto along = [&](const char* name, int size, const auto&... buffers) {
+    const std::size_t width = static_cast<std::size_t>(shape_.width),
+                      others = pixels / width / static_cast<std::size_t>(size),
+                      groups = STRIPS_OF(width) * static_cast<std::size_t>(BANDS_OF(size)) * others;
+    kernel(name).in_groups_of(ITEMS_OF_BAND).over_items(groups * ITEMS_OF_BAND, images, buffers...);
   };
   const cl::Event first =
       kernel("nearest_columns").over_items(pixels, images, marks.bits, marks.counts, room.columns);
-  along("end_bands_along_y", "fill_bands_along_y", shape_.height, room.columns, room.between);
+  along("nearest_along_y", shape_.height, room.columns, room.between);
   // What rows have is needed no longer: there is room for slices.
-  if (shape_.depth > 1)
-    along("end_bands_along_z", "fill_bands_along_z", shape_.depth, room.between, room.columns);
+  if (shape_.depth > 1) along("nearest_along_z", shape_.depth, room.between, room.columns);
   return {first, run_last(kernel("store_targets"), pixels, targets, marks, images, room.between, room.columns,
                           marks.bits)};
 }

@@ -343,6 +343,29 @@ BOOST_AUTO_TEST_CASE(groups_have_any_number_of_items) {
   }
 }
 
+// Between two crowds of marks that mirror each other lie hundreds of places, whose sites the items of a line
+// share; and where two crowds are as near, the one that comes first counts, be it that of a later image.
+BOOST_AUTO_TEST_CASE(groups_share_gaps_of_any_length) {
+  std::mt19937 rng(3);
+  for (const bool is_periodic : {false, true}) {
+    for (const Shape3& shape : {Shape3{{20, 700, 1}, {false, is_periodic, false}},
+                                Shape3{{5, 3, 402}, {false, false, is_periodic}, {2, 1, 3}}}) {
+      const std::size_t axis = shape.sides[2] > 1 ? 2 : 1;
+      const int size = shape.sides[axis];
+      std::vector<bool> has_marks(static_cast<std::size_t>(size));
+      for (int i = 100; i < 170; ++i) {
+        has_marks[static_cast<std::size_t>(i)] = has_marks[static_cast<std::size_t>(size - i)] =
+            rng() % 8 == 0;
+      }
+      Bytes image(shape.pixels());
+      for (std::size_t i = 0; i < image.size(); ++i) {
+        image[i] = !(has_marks[static_cast<std::size_t>(shape.at(i)[axis])] && shape.at(i)[0] % 4 == 1);
+      }
+      check_against_brute_force(shape, image, {}, in_groups_of(64));
+    }
+  }
+}
+
 // Lines of one band and of several, of 64 places each; lengths that are rounded; squared distances of 32 and
 // of 64 bits.
 BOOST_AUTO_TEST_CASE(groups_and_vectors_write_the_same_bits) {

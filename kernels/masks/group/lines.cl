@@ -1,9 +1,15 @@
 // Along y and z on GPUs: of each place of a line the nearest SITE, a row or slice that has marks. 16 neighbouring lines
-// are taken together, a STRIP, and BAND places of each by a work-group.
+// are taken together, a STRIP, and BAND places of each by a work-group, some items for each line.
 //
 // All nearest sites of a place lie between any nearest one of an earlier place and any of a later one (lines.cl). So
-// the last place of each band looks at all sites, then the middle one of a band at those between the sites of the two
-// ends, and so on: each level has the middles of the gaps that the last one left.
+// the last places of a band and of the one before look outward; then three places between them, the MIDDLES, are
+// compared with the sites between those of the two ends, and so on: each level has the middles of the GAPS that the
+// last one left.
+//
+// Gaps may have sites by the hundred, or one. At each level the items of a line share all that is to be compared
+// evenly: the sites of the first gap, then those of the next, which begin with the last one of the first. An item may
+// take a part of a gap, or several gaps. A gap belongs to the item that takes its last site; what others found of it
+// stands in local memory.
 //
 // Along a periodic line sites have IMAGES for half a period beyond both ends. Of sites as near the one with the lesser
 // number in the period counts. Of the lines of a slice, or of the volume, all have a site or none has.
@@ -18,7 +24,7 @@
 #include "masks/lanes.cl"
 
 #define NO_WAY (-0x8000)  // along x or z
-#define NO_SITE (1 << 20)
+#define NO_SITE (-(1 << 20))
 #ifdef VOROCL_FAR
 #define MOST_SQUARED LONG_MAX
 #else
@@ -49,135 +55,195 @@ INLINE void set_line(line_t* l, const images_t* e, const bool along_z, int x, in
 
 INLINE squares squared(int way, squares square) { return (squares)way * (squares)way * square; }
 
-// Where a site stands in images, or the one that it is an image of.
-INLINE uint place_of_site(const line_t* l, int site) {
-  const int number = site < 0 ? site + l->size : site >= l->size ? site - l->size : site;
-  return l->first + (uint)number * l->stride;
+// The number of a site, or of the one that it is an image of.
+INLINE int number_of(const line_t* l, int site) {
+  return site < 0 ? site + l->size : site >= l->size ? site - l->size : site;
 }
 
-// The squared distance of the mark of a site that lies so far along the line; MOST_SQUARED if it has none.
-INLINE squares distance_to(const line_t* l, const bool along_z, global const short* columns,
-                           global const int* between, uint at, squares along) {
+INLINE uint place_in_images(const line_t* l, int number) { return l->first + (uint)number * l->stride; }
+
+// The part of the squared distance of a site's mark that is not along the line; MOST_SQUARED if it has none.
+INLINE squares across_to(const line_t* l, const bool along_z, global const short* columns, global const int* between,
+                         int number) {
+  const uint at = place_in_images(l, number);
   const int known = along_z ? between[at] : columns[at], way_x = (short)known;
-  squares distance = along + squared(way_x, l->square_x);
-  if (along_z) distance += squared(known >> 16, l->square_y);
-  return way_x == NO_WAY ? MOST_SQUARED : distance;
+  const squares square = squared(way_x, l->square_x) + (along_z ? squared(known >> 16, l->square_y) : 0);
+  return way_x == NO_WAY ? MOST_SQUARED : square;
+}
+INLINE squares distance_of(squares across, squares along) {
+  return across == MOST_SQUARED ? MOST_SQUARED : across + along;
 }
 
-// The nearest site of a place; NO_SITE if none has marks. It looks outward, until all that is left is strictly farther
-// away than what it found.
-INLINE int nearest_of_all(const line_t* l, const bool along_z, global const short* columns,
-                          global const int* between, int place) {
-  squares best = MOST_SQUARED;
-  int found = NO_SITE;
-  uint at_found = 0;
-  for (int k = 0; k <= l->reach; ++k) {
-    const squares along = squared(k, l->square);
-    if (along > best) break;
-#pragma unroll
-    for (int side = -1; side <= 1; side += 2) {
-      const int site = clamp(place + side * k, l->least, l->most);  // that of an end is none the nearer for it
-      const uint at = place_of_site(l, site);
-      const squares distance = distance_to(l, along_z, columns, between, at, along);
-      const bool wins = (distance < best) | ((distance == best) & (at < at_found));
-      best = wins ? distance : best;
-      found = wins ? site : found;
-      at_found = wins ? at : at_found;
-    }
-  }
-  return found;
+// The nearest one of the sites that were compared.
+typedef struct {
+  squares square;
+  int site;
+} nearest_site_t;
+
+INLINE void compare(const line_t* l, nearest_site_t* n, squares square, int site) {
+  const bool comes_first = number_of(l, site) < number_of(l, n->site);
+  const bool wins = square < n->square || (square == n->square && comes_first);
+  n->square = wins ? square : n->square;
+  n->site = wins ? site : n->site;
 }
 
-// The same of the sites from `low` to `high`, in the order of their numbers. No nearest one is beyond `reach`, nor
-// does a square of such a way fit.
-INLINE int nearest_of_some(const line_t* l, const bool along_z, global const short* columns,
-                           global const int* between, int place, int low, int high) {
-  if (low == high) return low;
-  low = max(low, place - l->reach), high = min(high, place + l->reach);
-  squares best = MOST_SQUARED;
-  int found = low;
-  for (int image = high >= l->size; image >= -(low < 0); --image) {
-    int site = max(low, image * l->size);
-    const int last = min(high, image * l->size + l->size - 1), way = site - place;
-    uint at = l->first + (uint)(site - image * l->size) * l->stride;
-    squares along = squared(way, l->square), more = (squares)(2 * way + 1) * l->square;
+// The nearest site of a place, of those whose way is `first`, or `step` more, and so on. It looks outward, until all
+// that is left is strictly farther away than what it found, some ways at a time, whose loads wait together.
+INLINE nearest_site_t nearest_of_all(const line_t* l, const bool along_z, global const short* columns,
+                                     global const int* between, int place, int first, int step) {
+  nearest_site_t n = {MOST_SQUARED, NO_SITE};
 #pragma unroll 1
-    for (; site <= last; ++site, at += l->stride) {
-      const squares distance = distance_to(l, along_z, columns, between, at, along);
-      found = distance < best ? site : found;
-      best = min(best, distance);
-      along += more;
-      more += 2 * l->square;
+  for (int k = first; k <= l->reach && squared(k, l->square) <= n.square; k += LOADS * step) {
+    int sites[2 * LOADS];
+    squares distances[2 * LOADS], least = MOST_SQUARED;
+#pragma unroll
+    for (int i = 0; i < 2 * LOADS; ++i) {
+      const int way = min(k + i / 2 * step, l->reach);
+      // That of an end is none the nearer for it.
+      sites[i] = clamp(i % 2 == 0 ? place - way : place + way, l->least, l->most);
+      const squares across = across_to(l, along_z, columns, between, number_of(l, sites[i]));
+      distances[i] = distance_of(across, squared(way, l->square));
+      least = min(least, distances[i]);
     }
+    if (least == MOST_SQUARED || least > n.square) continue;  // as most are
+#pragma unroll
+    for (int i = 0; i < 2 * LOADS; ++i) compare(l, &n, distances[i], sites[i]);
   }
-  return found;
+  return n;
+}
+
+// The same for the middles of a gap, in the order of sites: of those as near the first one counts.
+INLINE void compare_middles(const line_t* l, nearest_site_t* n, squares across, int site, int way, int step) {
+#pragma unroll
+  for (int j = 0; j < MIDDLES; ++j) {
+    const squares distance = distance_of(across, squared(way - j * step, l->square));
+    n[j].site = distance < n[j].square ? site : n[j].site;
+    n[j].square = min(distance, n[j].square);
+  }
 }
 
 // Writes the site of a place.
 INLINE void store_site(const line_t* l, const bool along_z, global const short* columns, global int* between,
                        global short* slices, int place, int site) {
-  const uint at = l->first + (uint)place * l->stride;
+  const uint at = place_in_images(l, place);
   const bool is_there = site != NO_SITE;
   if (along_z) {
     slices[at] = (short)(is_there ? site - place : NO_WAY);
   } else {
-    between[at] = is_there ? (site - place) << 16 | (ushort)columns[place_of_site(l, site)] : (ushort)NO_WAY;
+    const uint at_site = place_in_images(l, is_there ? number_of(l, site) : place);
+    between[at] = is_there ? (site - place) << 16 | (ushort)columns[at_site] : (ushort)NO_WAY;
   }
 }
 
-// The site that was written.
-INLINE int site_at(const line_t* l, const bool along_z, global const int* between, global const short* slices,
-                   int place) {
-  const uint at = l->first + (uint)place * l->stride;
-  const int known = along_z ? slices[at] : between[at];
-  if ((short)known == NO_WAY) return NO_SITE;
-  return place + (along_z ? known : known >> 16);
-}
+// What a work-group shares.
+typedef struct {
+  int sites[(BAND + 1) * STRIP];                   // see slot_of()
+  int gap[ITEMS_OF_BAND];                          // of each item the last gap that it had a part of, and ...
+  nearest_site_t nearest[MIDDLES][ITEMS_OF_BAND];  // ... what it found for the places in its middle
+} band_t;
 
-INLINE int places_of_band(int band, int size) { return min(BAND, size - band * BAND); }
+// Where the site of a place of the band stands: that of the last one behind all others, for places behind it are
+// compared, too. Place 0 is the last one of the band before.
+INLINE int slot_of(int place, int count) { return (place < count ? place : BAND) * STRIP; }
 
-// Of the last places of bands, an item each.
-INLINE void find_ends(global const images_t* images, const bool along_z, global const short* columns,
-                      global const int* known, global int* between, global short* slices) {
-  const images_t e = *images;
-  const uint item = (uint)get_global_id(0), bundle = item / (uint)e.width;
-  const int size = along_z ? e.depth : e.height;
-  const uint bands = (uint)BANDS_OF(size), others = (uint)(along_z ? e.height : e.depth);
-  if (bundle >= bands * others) return;
-  line_t l;
-  set_line(&l, &e, along_z, (int)(item % (uint)e.width), (int)(bundle / bands));
-  const int band = (int)(bundle % bands), place = band * BAND + places_of_band(band, size) - 1;
-  store_site(&l, along_z, columns, between, slices, place, nearest_of_all(&l, along_z, columns, known, place));
-}
-
-// Of all others. `sites`: those of the places of a work-group, from the last one of the band before on.
-INLINE void find_between_ends(global const images_t* images, const bool along_z, global const short* columns,
-                              global const int* known, global int* between, global short* slices, local int* sites) {
+INLINE void find_along_lines(constant images_t* images, const bool along_z, global const short* columns,
+                             global const int* known, global int* between, global short* slices, local band_t* b) {
   const images_t e = *images;
   const int size = along_z ? e.depth : e.height;
   const int strips = STRIPS_OF(e.width), bands = BANDS_OF(size);
   const int group = (int)get_group_id(0), bundle = group / strips, band = bundle % bands;
-  const int lane = (int)get_local_id(0) % STRIP, item = (int)get_local_id(0) / STRIP;
-  const int items = (int)get_local_size(0) / STRIP, x = group % strips * STRIP + lane;
-  const int before = band * BAND - 1, count = places_of_band(band, size);
+  const int id = (int)get_local_id(0), item = id / STRIP, items = ITEMS_OF_BAND / STRIP;
+  const int x = group % strips * STRIP + id % STRIP;
+  const int before = band * BAND - 1, count = min(BAND, size - band * BAND);
   line_t l;
   set_line(&l, &e, along_z, min(x, e.width - 1), bundle / bands);
-  local int* const own = sites + lane;
-  if (item == 0) {
-    const int end = site_at(&l, along_z, between, slices, before + count);
-    own[count * STRIP] = end;
-    own[0] = band > 0 ? site_at(&l, along_z, between, slices, before) : end == NO_SITE ? NO_SITE : l.least;
-  }
-#pragma unroll 1
-  for (int step = BAND / 2; step > 0; step /= 2) {
-    barrier(CLK_LOCAL_MEM_FENCE);
-#pragma unroll 1
-    for (int i = step * (2 * item + 1); i < count; i += 2 * step * items) {
-      const int site = nearest_of_some(&l, along_z, columns, known, before + i, own[(i - step) * STRIP],
-                                       own[min(i + step, count) * STRIP]);
-      own[i * STRIP] = site;
-      if (x < e.width) store_site(&l, along_z, columns, between, slices, before + i, site);
+  local int* const sites = b->sites + id % STRIP;
+
+  // Half of the items look for the site of each end.
+  const int looking = items / 2, is_last = item / looking, place = before + is_last * count;
+  if (place >= 0) b->nearest[0][id] = nearest_of_all(&l, along_z, columns, known, place, item % looking, looking);
+  barrier(CLK_LOCAL_MEM_FENCE);
+  if (item % looking == 0) {
+    nearest_site_t n = {MOST_SQUARED, NO_SITE};
+    for (int i = id; i < id + looking * STRIP; i += STRIP) {
+      compare(&l, &n, b->nearest[0][i].square, b->nearest[0][i].site);
     }
+    sites[is_last * BAND * STRIP] = place < 0 ? l.least : n.site;
+  }
+  barrier(CLK_LOCAL_MEM_FENCE);
+  const int low = sites[0];
+  const bool none = sites[BAND * STRIP] == NO_SITE;
+
+#pragma unroll 1
+  for (int shift = LOG_BAND; shift > 0; shift -= 2) {
+    const int wide = 1 << shift, step = wide / (MIDDLES + 1), gaps = (count - 1 + MIDDLES * step) >> shift;
+    const int all = none ? 0 : sites[slot_of(gaps * wide, count)] - low + gaps, part = (all + items - 1) / items;
+    const int begin = part * item, end = min(begin + part, all);
+    int gap = 0;
+    for (int far = BAND / 2; far >= wide; far /= 2) {
+      const int next = gap + far;
+      if (next < gaps * wide && sites[next * STRIP] - low + (next >> shift) <= begin) gap = next;
+    }
+    int site = low + begin - (gap >> shift), last = sites[slot_of(gap + wide, count)], own = -1;
+    int image = site < 0 ? -size : site < size ? 0 : size;  // the first site in it
+    nearest_site_t n[MIDDLES];
+    squares square[MIDDLES];  // of its first gap
+#pragma unroll
+    for (int j = 0; j < MIDDLES; ++j) n[j].square = MOST_SQUARED, n[j].site = NO_SITE;
+#pragma unroll 1
+    for (int i = begin; i < end; ++i) {
+      const int first = before + gap + step;
+      // Loads take long, and those of several sites wait together.
+      if (site + LOADS <= min(last, image + size - 1) && i + LOADS < end) {
+        squares across[LOADS];
+#pragma unroll
+        for (int k = 0; k < LOADS; ++k) across[k] = across_to(&l, along_z, columns, known, site + k - image);
+#pragma unroll
+        for (int k = 0; k < LOADS; ++k) compare_middles(&l, n, across[k], site + k, site + k - first, step);
+        site += LOADS, i += LOADS;
+      }
+      const squares across = across_to(&l, along_z, columns, known, site - image);
+      compare_middles(&l, n, across, site, site - first, step);
+      if (site == last) {
+#pragma unroll
+        for (int j = 0; j < MIDDLES; ++j) {
+          if (own < 0) square[j] = n[j].square - (n[j].site < image);
+          sites[(gap + (j + 1) * step) * STRIP] = n[j].site;
+          n[j].square = MOST_SQUARED, n[j].site = NO_SITE;
+        }
+        if (own < 0) own = gap;
+        gap += wide;
+        last = sites[slot_of(gap + wide, count)];
+      } else if (++site == image + size) {
+        // What is as near in the next image has a lesser number.
+#pragma unroll
+        for (int j = 0; j < MIDDLES; ++j) n[j].square += n[j].site >= image;
+        image += size;
+      }
+    }
+#pragma unroll
+    for (int j = 0; j < MIDDLES; ++j) {
+      b->nearest[j][id].square = n[j].square - (n[j].site < image);
+      b->nearest[j][id].site = n[j].site;
+    }
+    b->gap[id] = gap;
+    barrier(CLK_LOCAL_MEM_FENCE);
+    if (own >= 0) {
+      for (int i = id - STRIP; i >= 0 && b->gap[i] == own; i -= STRIP) {
+#pragma unroll
+        for (int j = 0; j < MIDDLES; ++j) {
+          local int* const middle = sites + (own + (j + 1) * step) * STRIP;
+          nearest_site_t found = {square[j], *middle};
+          compare(&l, &found, b->nearest[j][i].square, b->nearest[j][i].site);
+          square[j] = found.square;
+          *middle = found.site;
+        }
+      }
+    }
+    barrier(CLK_LOCAL_MEM_FENCE);
+  }
+  for (int i = item + 1; i <= count && x < e.width; i += items) {
+    store_site(&l, along_z, columns, between, slices, before + i, none ? NO_SITE : sites[slot_of(i, count)]);
   }
 }
 

@@ -7,18 +7,21 @@
 #include "masks/targets.cl"
 
 // Along x: the way to the nearest mark of each pixel's row. Neighbours look at the same words of 64 pixels.
-kernel void nearest_columns(global const images_t* images, global const ulong* restrict marks,
+kernel void nearest_columns(constant images_t* images, global const ulong* restrict marks,
                             global const uint* restrict counts, global short* restrict columns) {
-  const uint at = (uint)get_global_id(0), width = (uint)images->width, row = at / width;
-  if (row >= (uint)images->height * (uint)images->depth) return;
+  const images_t e = *images;
+  const uint at = (uint)get_global_id(0);
+  if (at >= pixels_of(&e)) return;
+  const uint row = DIVIDE(at, e.factor_of_width, e.shift_of_width);
+  const int x = (int)(at - row * (uint)e.width), period = e.period_x, words = SHORTS_OF_ROW(e.width) / 4, own = x / 64;
+  global const ulong* const word = marks + row * (uint)words;
+  const ulong of_pixel = word[own];  // It is loaded beside the count.
   if (counts[row] == 0) {
     columns[at] = NO_WAY;
     return;
   }
-  const int x = (int)(at - row * width), period = images->period_x, words = SHORTS_OF_ROW(images->width) / 4;
-  global const ulong* const word = marks + (size_t)row * (size_t)words;
-  const int own = x / 64, none = 1 << 20;  // farther than any mark
-  ulong before = word[own] & (~0ul >> (63 - x % 64)), behind = word[own] & (~0ul << x % 64);
+  const int none = 1 << 20;  // farther than any mark
+  ulong before = of_pixel & (~0ul >> (63 - x % 64)), behind = of_pixel & (~0ul << x % 64);
   int i = own;
   while (before == 0 && i > 0) before = word[--i];
   int last = before == 0 ? -none : 64 * i + highest_of_word(before);
@@ -38,25 +41,17 @@ kernel void nearest_columns(global const images_t* images, global const ulong* r
 }
 
 // Along y: the way to the nearest mark, in a volume of each slice.
-kernel void end_bands_along_y(global const images_t* images, global const short* restrict columns,
-                              global int* restrict between) {
-  find_ends(images, false, columns, 0, between, 0);
-}
-kernel void fill_bands_along_y(global const images_t* images, global const short* restrict columns,
-                               global int* restrict between) {
-  local int sites[(BAND + 1) * STRIP];
-  find_between_ends(images, false, columns, 0, between, 0, sites);
+kernel void nearest_along_y(constant images_t* images, global const short* restrict columns,
+                            global int* restrict between) {
+  local band_t band;
+  find_along_lines(images, false, columns, 0, between, 0, &band);
 }
 
 // Along z: how many slices away the nearest mark is.
-kernel void end_bands_along_z(global const images_t* images, global const int* restrict between,
-                              global short* restrict slices) {
-  find_ends(images, true, 0, between, 0, slices);
-}
-kernel void fill_bands_along_z(global const images_t* images, global const int* restrict between,
-                               global short* restrict slices) {
-  local int sites[(BAND + 1) * STRIP];
-  find_between_ends(images, true, 0, between, 0, slices, sites);
+kernel void nearest_along_z(constant images_t* images, global const int* restrict between,
+                            global short* restrict slices) {
+  local band_t band;
+  find_along_lines(images, true, 0, between, 0, slices, &band);
 }
 
 static inline int at_end(int place, int way, int size) {
@@ -65,13 +60,15 @@ static inline int at_end(int place, int way, int size) {
 }
 
 // Writes what is wanted of the nearest marks. Labels may be those of the marks before.
-kernel void store_targets(global const images_t* images, global const int* between, global const short* slices,
+kernel void store_targets(constant images_t* images, global const int* between, global const short* slices,
                           global const ushort* marks, TARGET_PARAMETERS) {
   const images_t e = *images;
   const targets_t t = TARGETS_OF_PARAMETERS;
-  const uint at = (uint)get_global_id(0), row = at / (uint)e.width;
-  if (row >= (uint)e.height * (uint)e.depth) return;
-  const int x = (int)(at % (uint)e.width), y = (int)(row % (uint)e.height), z = (int)(row / (uint)e.height);
+  const uint at = (uint)get_global_id(0);
+  if (at >= pixels_of(&e)) return;
+  const uint row = DIVIDE(at, e.factor_of_width, e.shift_of_width);
+  const int z = (int)DIVIDE(row, e.factor_of_height, e.shift_of_height), y = (int)row - z * e.height;
+  const int x = (int)(at - row * (uint)e.width);
   const int to_slice = e.depth > 1 ? slices[at] : 0, way_z = to_slice == NO_WAY ? 0 : to_slice;
   const int slice = at_end(z, way_z, e.depth), known = between[index_of_pixel(x, y, slice, &e)];
   const int way_x = (short)known, way_y = known >> 16;
