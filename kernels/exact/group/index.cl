@@ -10,9 +10,9 @@
 
 #include "exact/bins.cl"
 
-// Finds who stands for each place, and counts those of each bin, in a table of 2^table_bits places by their hashes, which is NOT_SEEN at
-// first, as what is behind it, `lowest`: that gets the lowest id of the places that one stands for, and stays
-// so of all others. (Ids are the places' own numbers unless they are given.)
+// Finds who stands for each place, and counts those of each bin. A table of 2^table_bits places by their hashes is
+// NOT_SEEN at first, as is what stands behind it, `lowest`: that gets the lowest id of the places that one stands for,
+// and stays so of all others. (Ids are the places' own numbers unless they are given.)
 static inline int4 place_and_lag(given_t given, uint id, global const int* lags) {
   const int4 place = place_of(given);
   return (int4)(place.xyz, IS_WEIGHTED ? lags[id] : 0);

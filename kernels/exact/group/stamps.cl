@@ -256,7 +256,8 @@ static inline void stamp_row(local uint* row, int x, uint across, float radius, 
 #endif
 }
 
-static inline void stamp_slice(local uint* slice, int2 place, uint across, float radius, int top, int end, uint number) {
+static inline void stamp_slice(local uint* slice, int2 place, uint across, float radius, int top, int end,
+                               uint number) {
   const span_t rows = stamped(in_pixels(place.y - HALF), IS_MANHATTAN ? radius : sqrt(radius), top, end);
   for (int row = rows.from; row <= rows.to; ++row) {
     const int way = row * ONE + HALF - place.y;
@@ -340,13 +341,14 @@ kernel void stamp_patches(SCENE_PARAMETERS, global uint* restrict pending, globa
     SYNC();
   }
   const bool is_labelled = stamps.far_count <= MOST_FAR && stamps.open_count <= MOST_OPEN;
+  const uint open_here = is_labelled ? stamps.open_count : 0;
   if (ITEM() == 0) {
     pending[get_group_id(0)] = is_labelled ? 0 : 1;
-    stamps.first_open = atomic_add(queue + 1, is_labelled ? stamps.open_count : 0);
+    stamps.first_open = atomic_add(queue + 1, open_here);
   }
   SYNC();
-  for (int i = ITEM(); is_labelled && i < (int)stamps.open_count; i += ITEMS())
-    open[stamps.first_open + (uint)i] = (uint)get_group_id(0) * PIXELS_OF_PATCH + stamps.open[i];
+  for (uint i = (uint)ITEM(); i < open_here; i += (uint)ITEMS())
+    open[stamps.first_open + i] = (uint)get_group_id(0) * PIXELS_OF_PATCH + stamps.open[i];
 }
 
 #endif
