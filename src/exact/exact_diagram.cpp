@@ -8,6 +8,7 @@
 #include "globe/globe.hpp"
 #include "masks/exact_diagram.hpp"
 #include "runtime/buffer.hpp"
+#include "runtime/opencl_info.hpp"
 // Last: it defines macros.
 #include "exact/sizes.cl"
 
@@ -169,7 +170,9 @@ Report exact_diagram_by_places(Filling& filling, DiagramState& state) {
     label("list_patches", items, patches, pending, queue);
     // A few crowds may have far more places than all others, which wait for them then.
     const std::size_t items_of_crowd = std::max(items, std::min<std::size_t>(group, CROWD_SIDE * CROWD_SIDE));
-    const cl::Event end = label("label_crowds", items_of_crowd, crowds_of_patch * patches, queue);
+    constexpr std::size_t crowds_of_unit = 16;  // at a time: most often there are none
+    const std::size_t crowds = std::min(crowds_of_patch * patches, crowds_of_unit * units_of(device));
+    const cl::Event end = label("label_crowds", items_of_crowd, crowds, queue);
     return filling.commit(0, begin, end);
   }
   const std::size_t chunks = chunks_of(count);

@@ -9,10 +9,6 @@
 
 namespace vorocl {
 
-inline std::size_t units_of(const Device& device) {
-  return device_info<cl_uint>(device.cl_device()(), CL_DEVICE_MAX_COMPUTE_UNITS);
-}
-
 inline std::size_t items_of(const Device& device) {
   constexpr std::size_t least = 16, each_unit = 2;
   return std::max(least, each_unit * units_of(device));

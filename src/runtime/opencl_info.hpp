@@ -1,10 +1,12 @@
 // Asks OpenCL about its objects.
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <type_traits>
 
 #include "runtime/opencl_error.hpp"
+#include "vorocl/device.hpp"
 #include "vorocl/opencl.hpp"
 
 namespace vorocl {
@@ -32,6 +34,11 @@ T info(Ask ask, const Object& object, cl_uint name) {
 template <typename T>
 T device_info(cl_device_id device, cl_device_info name) {
   return info<T>(clGetDeviceInfo, device, name);
+}
+
+/// How many compute units it has.
+inline std::size_t units_of(const Device& device) {
+  return device_info<cl_uint>(device.cl_device()(), CL_DEVICE_MAX_COMPUTE_UNITS);
 }
 
 }  // namespace vorocl

@@ -142,20 +142,23 @@ kernel void label_squares(SCENE_PARAMETERS) {
 
 #define BOXES_OF_PATCH (PATCH / CROWD_SIDE)
 
-// Labels a box of a patch of the queue. Most work-groups have none.
+// Labels the boxes of the patches in the queue, of which there are none most often.
 kernel void label_crowds(SCENE_PARAMETERS, global const uint* restrict queue) {
   local crowd_t crowd;
   local ranges_t ranges;
   local rivals_t rivals;
-  const int group = (int)get_group_id(0), number = group / (BOXES_OF_PATCH * BOXES_OF_PATCH);
-  if (number >= (int)queue[0]) return;
   const scene_t scene = SCENE_OF_PARAMETERS;
-  const box_t patch = box_of_patch(&scene, (int)queue[BEFORE_QUEUE + number]);
-  const int left = group % BOXES_OF_PATCH, top = group / BOXES_OF_PATCH % BOXES_OF_PATCH;
-  const box_t box =
-      box_at(patch.x + left * CROWD_SIDE, patch.y + top * CROWD_SIDE, 0, CROWD_SIDE, CROWD_SIDE, 1);
-  if (box.x >= size.x || box.y >= size.y) return;
-  label_crowd(&crowd, &ranges, &rivals, &scene, box);
+  const int boxes = (int)queue[0] * BOXES_OF_PATCH * BOXES_OF_PATCH;
+#pragma unroll 1
+  for (int number = (int)get_group_id(0); number < boxes; number += (int)get_num_groups(0)) {
+    const int patch = (int)queue[BEFORE_QUEUE + number / (BOXES_OF_PATCH * BOXES_OF_PATCH)];
+    box_t box = box_of_patch(&scene, patch);
+    box.x += number % BOXES_OF_PATCH * CROWD_SIDE;
+    box.y += number / BOXES_OF_PATCH % BOXES_OF_PATCH * CROWD_SIDE;
+    // One beyond the grid is as good as any: nothing is shown of it.
+    label_crowd(&crowd, &ranges, &rivals, &scene, box_at(box.x, box.y, 0, CROWD_SIDE, CROWD_SIDE, 1));
+    SYNC();
+  }
 }
 
 #endif
