@@ -34,15 +34,14 @@ bool shows_marks(const Filling& filling) {
 }  // namespace
 
 bool labels_by_passes(const Filling& filling, const DiagramState& state) {
-  // In groups random seeds of planes take fewer instructions by their index, however dense (counted).
   const bool in_groups = state.device.tuning().shape == Shape::group;
-  if (in_groups && !state.grid.has_voxels()) return false;
+  if (in_groups && filling.metric() != Metric::euclidean) return false;  // groups have squares alone
   if (shows_marks(filling)) return true;
   if (filling.takes_places()) return false;
   const Placement& placement = filling.placement();
-  // Of fewer seeds the ways by their index take a shorter time (measured), and in groups fewer instructions.
-  const std::size_t pixels_per_seed = in_groups                               ? 128
-                                      : placement.grid.has_voxels()           ? 24
+  // Of fewer seeds the ways by their index take a shorter time (measured).
+  const std::size_t pixels_per_seed = in_groups                     ? placement.grid.has_voxels() ? 128 : 10
+                                      : placement.grid.has_voxels() ? 24
                                       : filling.metric() == Metric::euclidean ? 28
                                                                               : 40;
   return placement.is_crowded || filling.seeds().size > placement.grid.pixels() / pixels_per_seed;

@@ -10,7 +10,7 @@
 // A patch is tried where a place has fewer pixels than this on average. Within the radius of a pixel lie so
 // many places then: at random one pixel in 37 has none. (Where so short a period that it has a seed twice
 // around a patch leaves open which of two numbers comes first, none is tried.)
-#define PIXELS_OF_DENSE (IS_VOLUME ? 400 : 36)
+#define PIXELS_OF_DENSE (IS_VOLUME ? 200 : 36)
 #define PLACES_WITHIN 3.6f
 #define REACH (IS_VOLUME ? 8 : 6)  // of a radius at most, in whole pixels
 // Pixels of a patch without a place near, which would look alone; with more it is left to others.
