@@ -5,44 +5,76 @@
 
 #include "exact/group/patch.cl"
 
-// Of each place its nearest image counts.
-static inline winner_t nearest_in(const scene_t* scene, cuboid_t c, int4 centre) {
-  winner_t best = {ULONG_MAX, 0};
-  const bins_t* const bins = &scene->bins;
-  const int4 period = scene->size * (ONE * SPACINGS);
-  const int first_row = number_of_row(scene, c.y.from), rows = number_of_row(scene, c.y.to) + 1 - first_row;
-  const int first_slice = number_of_slice(scene, c.z.from);
-  const int lines = IS_VOLUME ? rows * (number_of_slice(scene, c.z.to) + 1 - first_slice) : rows;
-  const int last_image = image_at(c.x.to, scene->size.x, PERIODIC_X);
-#pragma unroll 1
-  for (int line = 0; line < lines; ++line) {
-    const int row = wrapped(first_row + (IS_VOLUME ? line % rows : line), bins->rows, PERIODIC_Y);
-    const int slice = IS_VOLUME ? wrapped(first_slice + line / rows, bins->slices, PERIODIC_Z) : 0;
-    const int first_bin = (slice * bins->rows + row) * (bins->columns + 1);
-#pragma unroll 1
-    for (int image = image_at(c.x.from, scene->size.x, PERIODIC_X); image <= last_image; ++image) {
-      const span_t own = of_image(c.x, image, scene->size.x, PERIODIC_X);
-      const uint end = scene->starts[first_bin + (own.to >> bins->bits.x) + 1];
-#pragma unroll 1
-      for (uint at = scene->starts[first_bin + (own.from >> bins->bits.x)]; at < end; ++at) {
-        ulong distance = length_along(SHORTER(scene->x[at] - centre.x, period.x, PERIODIC_X)) +
-                         length_along(SHORTER(scene->y[at] - centre.y, period.y, PERIODIC_Y));
-        if (IS_VOLUME) distance += length_along(SHORTER(scene->z[at] - centre.z, period.z, PERIODIC_Z));
-        if (IS_WEIGHTED) distance += (ulong)scene->lags[at] * LAG_UNIT;
-        if (distance > best.distance) continue;
-        if (distance == best.distance && !is_first(scene, at, best.at)) continue;
-        best.distance = distance;
-        best.at = at;
-      }
-    }
-  }
-  return best;
+// How many pixels before and behind a pixel a place may be that is so far from its centre.
+static inline int reach_of(float pixels) { return (int)fmin(fma(pixels, 1 + 0x1p-20f, 0.5f + 0x1p-10f), 0x1p21f); }
+static inline float pixels_of(ulong distance) {
+  return (IS_MANHATTAN ? (float)distance : sqrt((float)distance)) * (1.f / ONE);
 }
 
-// How many pixels before and behind a pixel a place may be that is so far from its centre.
-static inline int reach_of(ulong distance) {
-  const float units = IS_MANHATTAN ? (float)distance : sqrt((float)distance);
-  return (int)fmin(fma(units, (1 + 0x1p-20f) / ONE, 0.5f + 0x1p-10f), (float)(1 << 21));
+// A row of bins along y, or a slice of them along z: where it stands in the index, and how far a pixel's centre is from
+// it at least. (Places outside a window, which stand in its border, are farther.)
+typedef struct {
+  int number;
+  float way;
+} line_of_bins_t;
+static inline line_of_bins_t line_of_bins(int line, int lines, int bits, int size, int pixel, int periodic) {
+  line_of_bins_t l;
+  l.number = wrapped(line, lines, periodic);
+  const int image = l.number == line ? 0 : line < 0 ? -size : size, from = image + (l.number << bits) - pixel;
+  l.way = fmax(fmax((float)from - 0.5f, 0.5f - (float)(from + (1 << bits))), 0.f);
+  return l;
+}
+// Lines k = 0, 1, ... lead away from one, on both sides in turn.
+static inline int line_outward(int own, int k) { return k % 2 != 0 ? own + (k + 1) / 2 : own - k / 2; }
+static inline int count_outward(int own, int first, int last) { return 2 * max(own - first, last - own) + 1; }
+
+// Looks no farther along a row than what it found. Of each place its nearest image counts.
+static inline void take_nearest_of_row(const scene_t* scene, box_t pixel, span_t x, int first_bin, winner_t* best) {
+  const bins_t* const bins = &scene->bins;
+  const int4 period = scene->size * ONE, centre = centre_of(pixel);
+  const int last_image = image_at(x.to, scene->size.x, PERIODIC_X);
+#pragma unroll 1
+  for (int image = image_at(x.from, scene->size.x, PERIODIC_X); image <= last_image; ++image) {
+    const span_t own = of_image(x, image, scene->size.x, PERIODIC_X);
+    const uint end = scene->starts[first_bin + (own.to >> bins->bits.x) + 1];
+#pragma unroll 1
+    for (uint at = scene->starts[first_bin + (own.from >> bins->bits.x)]; at < end; ++at) {
+      ulong distance = length_along(SHORTER(scene->x[at] - centre.x, period.x, PERIODIC_X)) +
+                       length_along(SHORTER(scene->y[at] - centre.y, period.y, PERIODIC_Y));
+      if (IS_VOLUME) distance += length_along(SHORTER(scene->z[at] - centre.z, period.z, PERIODIC_Z));
+      if (IS_WEIGHTED) distance += (ulong)scene->lags[at] * LAG_UNIT;
+      if (distance > best->distance) continue;
+      if (distance == best->distance && !is_first(scene, at, best->at)) continue;
+      best->distance = distance;
+      best->at = at;
+    }
+  }
+}
+
+static inline winner_t nearest_in(const scene_t* scene, cuboid_t c, box_t pixel) {
+  winner_t best = {ULONG_MAX, 0};
+  const bins_t* const bins = &scene->bins;
+  const int first_row = number_of_row(scene, c.y.from), last_row = number_of_row(scene, c.y.to);
+  const int own_row = number_of_row(scene, pixel.y), rows = count_outward(own_row, first_row, last_row);
+  const int first_slice = number_of_slice(scene, c.z.from), last_slice = number_of_slice(scene, c.z.to);
+  const int own_slice = number_of_slice(scene, pixel.z);
+  const int lines = IS_VOLUME ? rows * count_outward(own_slice, first_slice, last_slice) : rows;
+#pragma unroll 1
+  for (int i = 0; i < lines; ++i) {
+    const int row = line_outward(own_row, IS_VOLUME ? i % rows : i);
+    const int slice = IS_VOLUME ? line_outward(own_slice, i / rows) : 0;
+    if (row < first_row || row > last_row || (IS_VOLUME && (slice < first_slice || slice > last_slice))) continue;
+    const line_of_bins_t y = line_of_bins(row, bins->rows, bins->bits.y, scene->size.y, pixel.y, PERIODIC_Y);
+    line_of_bins_t z = {0, 0};
+    if (IS_VOLUME) z = line_of_bins(slice, bins->slices, bins->bits.z, scene->size.z, pixel.z, PERIODIC_Z);
+    const float radius = best.distance == ULONG_MAX ? 0x1p20f : pixels_of(best.distance) * (1 + 0x1p-20f);
+    const float rest = IS_MANHATTAN ? radius - y.way : radius * radius - y.way * y.way - z.way * z.way;
+    if (rest < 0) continue;
+    const int reach = reach_of(IS_MANHATTAN ? rest : sqrt(rest));
+    const span_t x = span_of(max(c.x.from, pixel.x - reach), min(c.x.to, pixel.x + reach));
+    take_nearest_of_row(scene, pixel, x, (z.number * bins->rows + y.number) * (bins->columns + 1), &best);
+  }
+  return best;
 }
 
 static inline span_t span_around(int at, int reach, span_t limits) {
@@ -51,14 +83,14 @@ static inline span_t span_around(int at, int reach, span_t limits) {
 static inline uint label_of(const scene_t* scene, box_t pixel) {
   const cuboid_t limits = limits_around(scene, pixel);
   const int most = max(max(scene->size.x, scene->size.y), scene->size.z);
-  int reach = 1 << min(scene->bins.bits.x, scene->bins.bits.y);
+  int reach = 1 << max(max(scene->bins.bits.x, scene->bins.bits.y), scene->bins.bits.z);
   while (true) {
     cuboid_t around = limits;
     around.x = span_around(pixel.x, reach, limits.x), around.y = span_around(pixel.y, reach, limits.y);
     if (IS_VOLUME) around.z = span_around(pixel.z, reach, limits.z);
-    const winner_t best = nearest_in(scene, around, centre_of(pixel));
+    const winner_t best = nearest_in(scene, around, pixel);
     const bool has_none = best.distance == ULONG_MAX;
-    const int needed = has_none ? 2 * reach : reach_of(best.distance);
+    const int needed = has_none ? 2 * reach : reach_of(pixels_of(best.distance));
     if (needed <= reach || reach >= most) return has_none ? NO_LABEL : scene->ids[best.at];
     reach = needed;
   }

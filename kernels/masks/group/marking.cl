@@ -23,7 +23,8 @@ kernel void mark_words(global const uchar* restrict pixels, int bytes, int has_s
 }
 
 // As paint_seeds(), a seed for each work-item. Marks and counts are 0 at first, and labels of pixels with seeds are
-// greater than any id.
+// greater than any id. Of a row it counts the words of 32 pixels that have seeds: then it is asked whether there are
+// any, and atomic operations at one place wait for each other.
 kernel void paint_pixels(global const uint* restrict positions, uint count, int width, int height, int bits_x,
                          int bits_y, global uint* marks, global uint* counts, global uint* labels) {
   const uint id = (uint)get_global_id(0);
@@ -34,7 +35,7 @@ kernel void paint_pixels(global const uint* restrict positions, uint count, int 
   const uint z = bits_x + bits_y < 32 ? position >> (bits_x + bits_y) : 0;
   const uint row = z * (uint)height + y, bit = 1u << x % 32;
   atomic_min(labels + ((size_t)row * (size_t)width + x), id);
-  if ((atomic_or(marks + ((size_t)row * (SHORTS_OF_ROW((size_t)width) / 2) + x / 32), bit) & bit) == 0)
+  if (atomic_or(marks + ((size_t)row * (SHORTS_OF_ROW((size_t)width) / 2) + x / 32), bit) == 0)
     atomic_inc(counts + row);
 }
 
