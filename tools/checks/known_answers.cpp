@@ -14,7 +14,7 @@ struct Setting {
   const char* name;
   int width, height;
   std::size_t seeds;  // of those that are random
-  int frames;
+  int frames, depth = 1;
 };
 
 const Setting& setting_of(Scene scene) {
@@ -24,7 +24,10 @@ const Setting& setting_of(Scene scene) {
                                 {"blocks", 260, 200, 0, 1},
                                 {"few seeds", 500, 300, 5, 1},
                                 {"long period", 16001, 24, 40, 1},
-                                {"full size", 2048, 2048, 16384, 2}};
+                                {"full size", 2048, 2048, 16384, 2},
+                                {"points", 61, 47, 300, 3},
+                                {"volume", 61, 47, 900, 3, 21},
+                                {"mask", 301, 287, 0, 1}};
   return all[static_cast<int>(scene)];
 }
 
@@ -100,18 +103,48 @@ const std::vector<KnownAnswer>& known_answers() {
       {"exact", manhattan, Axes::x, Scene::long_period, 0x31ebfe0273924a41},
       {"jfa", euclidean, none, Scene::full_size, 0xf001996b02f60428},
       {"djfa", euclidean, none, Scene::full_size, 0xf001996b02f60428},
+      {"exact", euclidean, none, Scene::points, 0},
+      {"exact", euclidean, xy, Scene::points, 0},
+      {"exact", manhattan, none, Scene::points, 0},
+      {"exact", euclidean, none, Scene::volume, 0},
+      {"exact", euclidean, Axes::xyz, Scene::volume, 0},
+      {"exact", euclidean, none, Scene::mask, 0},
+      {"exact", euclidean, xy, Scene::mask, 0},
   };
   return all;
 }
 
 Grid known_grid(const KnownAnswer& answer) {
   const Setting& setting = setting_of(answer.scene);
-  return {setting.width, setting.height, answer.periodic};
+  return {setting.width, setting.height, setting.depth, answer.periodic};
 }
+
+namespace {
+
+/// Between the centres of pixels, all anew in each frame: every other one of a volume in a corner of it.
+std::vector<std::vector<Point>> frames_of_points(const Setting& setting) {
+  constexpr int parts = 4096;
+  std::mt19937 random(1);
+  const auto below = [&](int end) {
+    return static_cast<double>(random() % static_cast<unsigned>(end * parts)) / parts;
+  };
+  std::vector<std::vector<Point>> frames(to_size(setting.frames));
+  for (std::vector<Point>& points : frames) {
+    for (std::size_t i = 0; i < setting.seeds; ++i) {
+      const int share = setting.depth > 1 && i % 2 == 0 ? 5 : 1;
+      const double x = below(setting.width / share), y = below(setting.height / share);
+      points.push_back({x, y, setting.depth > 1 ? below(setting.depth / share) : 0.5});
+    }
+  }
+  return frames;
+}
+
+}  // namespace
 
 std::vector<std::vector<Point>> known_frames(const KnownAnswer& answer) {
   const Setting& setting = setting_of(answer.scene);
-  if (answer.scene == Scene::ring) return {ring(setting)};
+  if (answer.scene == Scene::ring || answer.scene == Scene::mask) return {ring(setting)};
+  if (answer.scene == Scene::points || answer.scene == Scene::volume) return frames_of_points(setting);
   if (answer.scene == Scene::blocks) return {blocks(setting)};
   std::mt19937 random(1);  // the same numbers with every standard library
   const auto below = [&](int end) { return static_cast<int>(random() % static_cast<unsigned>(end)); };
@@ -144,13 +177,27 @@ std::string to_string(const KnownAnswer& answer) {
 
 namespace {
 
+std::vector<std::uint8_t> mask_of(const Grid& grid, const std::vector<Point>& points) {
+  std::vector<std::uint8_t> mask(grid.pixels());
+  for (const Point& point : points)
+    mask[static_cast<std::size_t>(point.y) * static_cast<std::size_t>(grid.width()) +
+         static_cast<std::size_t>(point.x)] = 1;
+  return mask;
+}
+
 std::uint64_t hash_on(const Device& device, const KnownAnswer& answer) {
   const Grid grid = known_grid(answer);
-  Seeds moving(device, grid, std::vector<Point>(), {Outside::count, Snap::to_pixels});
+  const bool are_points = answer.scene == Scene::points || answer.scene == Scene::volume;
+  Seeds moving(device, grid, std::vector<Point>(),
+               {Outside::count, are_points ? Snap::none : Snap::to_pixels});
   Diagram diagram(device, grid);
   Hash hash;
   for (const std::vector<Point>& points : known_frames(answer)) {
-    moving.move_to(points);
+    if (answer.scene == Scene::mask) {
+      moving = Seeds::from_mask(device, grid, mask_of(grid, points));
+    } else {
+      moving.move_to(points);
+    }
     method(answer.method).run(moving, diagram, {answer.metric});
     for (const std::uint32_t label : diagram.read()) hash.add(label);
   }

@@ -20,6 +20,9 @@ enum class Scene {
   few,          // far apart: most bins are empty
   long_period,  // of more than 16,000 pixels
   full_size,    // 16,384 on 2048 x 2048 pixels, two frames
+  points,       // 300 between the centres of 61 x 47 pixels, three frames
+  volume,       // 900 between the centres of 61 x 47 x 21 voxels, three frames; half of them close together
+  mask,         // the pixels of `ring`, as those of a mask
 };
 
 /// The diagrams of known_frames(), made one after the other by a method with its default options.
@@ -32,14 +35,14 @@ struct KnownAnswer {
 };
 
 /// Every method in both metrics, with and without periodic axes; the exact one in all scenes but that of full
-/// size, which is for jfa and djfa. The test known_answers computes the hashes anew: by brute force or a k-d
+/// size, which is for jfa and djfa. Volumes and masks are Euclidean. The test known_answers computes the hashes anew: by brute force or a k-d
 /// tree, or by a reference of flooding on the host.
 const std::vector<KnownAnswer>& known_answers();
 
 Grid known_grid(const KnownAnswer& answer);
 
 /// The frames of the scene, in some of which seeds share a pixel, and how far one moves along an axis, at
-/// most.
+/// most. Points are whole numbers of 1/4096 pixel.
 std::vector<std::vector<Point>> known_frames(const KnownAnswer& answer);
 constexpr int known_displacement = 2;
 
