@@ -21,9 +21,9 @@ struct ExactOptions {
 /// else those seeds near that no other one beats at all four corners of a square of pixels are tried. Cost:
 /// in proportion to the pixels, whatever the distribution of the seeds, within a factor of a few
 /// (docs/performance.md). 4 bytes of device memory per pixel, the labels, and 12 per seed besides its
-/// position, and up to 10 of an index (24 with Shape::group, and 2 per pixel); where seeds are dense up
-/// to 3.3 more per pixel in their place. Throws Error if seeds and diagram do not fit together or the device
-/// has too little memory.
+/// position, and up to 10 of an index (24 with Shape::group, and 2 per pixel of squares of 32); where seeds
+/// are dense up to 3.3 (6.2) more per pixel in their place. Throws Error if seeds and diagram do not fit
+/// together or the device has too little memory.
 ///
 /// Of seeds with Snap::none the points themselves are taken: the nearest is that of the least (distance from
 /// the pixel's centre, y, x, id), in whole numbers of 1/4096 pixel: 8 more bytes of device memory per seed.
@@ -51,9 +51,9 @@ struct ExactOptions {
 ///
 /// In a volume: of several seeds at the least distance the one that comes first by z, then y, then x. 4
 /// bytes of device memory per voxel, the labels, and 34 per seed besides its place (with Shape::group 38, and
-/// 1 per voxel). Snapped seeds that stand close together, and those of masks, cost what their voxels do: with
-/// Shape::group 6 more bytes per voxel. Throws Error for the Manhattan metric. docs/volumes.md says how and
-/// how fast.
+/// of points 1 per voxel of boxes of 16 x 16 x 8). Snapped seeds that stand close together, and those of
+/// masks, cost what their voxels do: with Shape::group 6 more bytes per voxel. Throws Error for the Manhattan
+/// metric. docs/volumes.md says how and how fast.
 VOROCL_API Report exact_diagram(const Seeds& seeds, Diagram& diagram, const ExactOptions& options = {});
 
 }  // namespace vorocl

@@ -21,8 +21,7 @@
 
 // In the group shape a work-group of 32, 64, 128 or 256 items labels a patch, a square of pixels or a cuboid of voxels,
 // or a box of one: where a patch of a plane has a crowd, and in a volume where places are not dense.
-#define PATCH_BITS 5
-#define PATCH (1 << PATCH_BITS)
+#define PATCH 32
 #define CROWD_SIDE 16  // and that of a box in a volume of one slice
 #define BOX_WIDTH 8
 #define BOX_HEIGHT 8

@@ -47,12 +47,12 @@
 #define VECTORS_OF_INTS(longest, strips) \
   ((strips) * (CARRIED_BY_LINE(longest) + (longest)) + INTS_OF_LINE(longest) / STRIP + 1)
 
-// In the group shape: places of a line that a work-group takes, a BAND; how many of them divide a gap; the items of the
-// group; of how many sites an item loads at a time what is known. The most items that sum counts.
+// In the group shape: places of a line that a work-group takes, a BAND; how many of them divide a gap; the most items
+// of the group; of how many sites an item loads at a time what is known. The most items that sum counts.
 #define LOG_BAND 6
 #define BAND (1 << LOG_BAND)
 #define MIDDLES 3
-#define ITEMS_OF_BAND 64
+#define MOST_OF_BAND 64
 #define LOADS 2
 #define BANDS_OF(size) (((size) + BAND - 1) / BAND)
 #define MOST_SUMMING 256

@@ -111,7 +111,7 @@ Report exact_diagram_by_places(Filling& filling, DiagramState& state) {
   };
   if (in_groups) {
     const std::size_t group = device.tuning().group_width * device.tuning().group_height;
-    const std::size_t items_of_places = std::max<std::size_t>(count, 1);
+    const std::size_t items_of_places = std::max<std::size_t>(count, BEFORE_QUEUE);
     const std::size_t most_of_row = std::min<std::size_t>(group, MOST_ITEMS_OF_ROW);
     constexpr std::size_t warp = 32;  // fewer take no less time, and PoCL compiles anew for each size
     std::size_t items_of_row = std::min(warp, most_of_row);

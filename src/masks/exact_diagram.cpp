@@ -35,7 +35,7 @@ bool shows_marks(const Filling& filling) {
 
 bool labels_by_passes(const Filling& filling, const DiagramState& state) {
   const bool in_groups = state.device.tuning().shape == Shape::group;
-  if (in_groups && filling.metric() != Metric::euclidean) return false;  // groups have squares alone
+  if (in_groups && filling.metric() != Metric::euclidean) return false;  // groups know squares alone
   if (shows_marks(filling)) return true;
   if (filling.takes_places()) return false;
   const Placement& placement = filling.placement();

@@ -141,6 +141,7 @@ struct PositionBits {
 cl::Event Marks::paint(KernelSet& kernels, const PixelGrid& grid, const cl::Buffer& positions,
                        std::size_t seeds, const cl::Buffer& labels) {
   make_room();
+  is_summed_ = false;
   const PositionBits bits_of_position(grid);
   if (device.tuning().shape == Shape::group) {
     cl::Event first = fill(device, bits, cl_ushort{0}, shape.rows() * shorts_of_row());

@@ -48,8 +48,8 @@ struct Marks {
   /// Makes the bits of an image on the device; returns the command.
   cl::Event mark(KernelSet& kernels, const cl::Buffer& pixels, PixelType type, Marked marked);
 
-  /// Marks the pixels that have seeds, and writes their ids there, the lowest of several. Returns the
-  /// command.
+  /// Marks the pixels that have seeds, and writes their ids there, the lowest of several. Such marks have
+  /// neither ranks nor a count. Returns the command.
   cl::Event paint(KernelSet& kernels, const PixelGrid& grid, const cl::Buffer& positions, std::size_t seeds,
                   const cl::Buffer& labels);
 

@@ -207,7 +207,8 @@ Commands MaskEngine::run_in_groups(KernelSet& kernels, const Marks& marks, const
     const std::size_t width = static_cast<std::size_t>(shape_.width),
                       others = pixels / width / static_cast<std::size_t>(size),
                       groups = STRIPS_OF(width) * static_cast<std::size_t>(BANDS_OF(size)) * others;
-    kernel(name).in_groups_of(ITEMS_OF_BAND).over_items(groups * ITEMS_OF_BAND, images, buffers...);
+    const std::size_t items = std::min<std::size_t>(device_.tuning().patch_items, MOST_OF_BAND);
+    kernel(name).in_groups_of(items).over_items(groups * items, images, buffers...);
   };
   const cl::Event first =
       kernel("nearest_columns").over_items(pixels, images, marks.bits, marks.counts, room.columns);

@@ -35,8 +35,8 @@ struct KnownAnswer {
 };
 
 /// Every method in both metrics, with and without periodic axes; the exact one in all scenes but that of full
-/// size, which is for jfa and djfa. Volumes and masks are Euclidean. The test known_answers computes the hashes anew: by brute force or a k-d
-/// tree, or by a reference of flooding on the host.
+/// size, which is for jfa and djfa. Volumes and masks are Euclidean. The test known_answers computes the
+/// hashes anew: by brute force or a k-d tree, or by a reference of flooding on the host.
 const std::vector<KnownAnswer>& known_answers();
 
 Grid known_grid(const KnownAnswer& answer);

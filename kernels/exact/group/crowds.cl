@@ -155,8 +155,8 @@ kernel void label_crowds(SCENE_PARAMETERS, global const uint* restrict queue) {
     box_t box = box_of_patch(&scene, patch);
     box.x += number % BOXES_OF_PATCH * CROWD_SIDE;
     box.y += number / BOXES_OF_PATCH % BOXES_OF_PATCH * CROWD_SIDE;
-    // One beyond the grid is as good as any: nothing is shown of it.
-    label_crowd(&crowd, &ranges, &rivals, &scene, box_at(box.x, box.y, 0, CROWD_SIDE, CROWD_SIDE, 1));
+    if (is_in_grid(&scene, box))
+      label_crowd(&crowd, &ranges, &rivals, &scene, box_at(box.x, box.y, 0, CROWD_SIDE, CROWD_SIDE, 1));
     SYNC();
   }
 }

@@ -63,7 +63,8 @@ static inline winner_t nearest_in(const scene_t* scene, cuboid_t c, box_t pixel)
   for (int i = 0; i < lines; ++i) {
     const int row = line_outward(own_row, IS_VOLUME ? i % rows : i);
     const int slice = IS_VOLUME ? line_outward(own_slice, i / rows) : 0;
-    if (row < first_row || row > last_row || (IS_VOLUME && (slice < first_slice || slice > last_slice))) continue;
+    if (row < first_row || row > last_row) continue;
+    if (IS_VOLUME && (slice < first_slice || slice > last_slice)) continue;
     const line_of_bins_t y = line_of_bins(row, bins->rows, bins->bits.y, scene->size.y, pixel.y, PERIODIC_Y);
     line_of_bins_t z = {0, 0};
     if (IS_VOLUME) z = line_of_bins(slice, bins->slices, bins->bits.z, scene->size.z, pixel.z, PERIODIC_Z);

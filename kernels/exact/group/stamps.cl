@@ -104,7 +104,7 @@ static inline float2 places_and_pixels(const scene_t* scene, box_t patch, local 
   }
   if (IS_WEIGHTED) atomic_add(lags, sum);
   const int bits = bins->bits.x + bins->bits.y + (IS_VOLUME ? bins->bits.z : 0);
-  return (float2)((float)count, (float)((last + 1 - first) * (bottom + 1 - top) * (back + 1 - front) << bits));
+  return (float2)((float)count, ldexp((float)((last + 1 - first) * (bottom + 1 - top) * (back + 1 - front)), bits));
 }
 
 // Where a period begins again among the lines around a patch, along an axis; 0 if it does not.

@@ -89,11 +89,11 @@ INLINE void compare(const line_t* l, nearest_site_t* n, squares square, int site
 
 // The nearest site of a place, of those whose way is `first`, or `step` more, and so on. It looks outward, until all
 // that is left is strictly farther away than what it found, some ways at a time, whose loads wait together.
-INLINE nearest_site_t nearest_of_all(const line_t* l, const bool along_z, global const short* columns,
-                                     global const int* between, int place, int first, int step) {
-  nearest_site_t n = {MOST_SQUARED, NO_SITE};
+INLINE void find_nearest_of_all(const line_t* l, const bool along_z, global const short* columns,
+                                global const int* between, int place, int first, int step, nearest_site_t* n) {
+  n->square = MOST_SQUARED, n->site = NO_SITE;
 #pragma unroll 1
-  for (int k = first; k <= l->reach && squared(k, l->square) <= n.square; k += LOADS * step) {
+  for (int k = first; k <= l->reach && squared(k, l->square) <= n->square; k += LOADS * step) {
     int sites[2 * LOADS];
     squares distances[2 * LOADS], least = MOST_SQUARED;
 #pragma unroll
@@ -105,11 +105,10 @@ INLINE nearest_site_t nearest_of_all(const line_t* l, const bool along_z, global
       distances[i] = distance_of(across, squared(way, l->square));
       least = min(least, distances[i]);
     }
-    if (least == MOST_SQUARED || least > n.square) continue;  // as most are
+    if (least == MOST_SQUARED || least > n->square) continue;  // as most are
 #pragma unroll
-    for (int i = 0; i < 2 * LOADS; ++i) compare(l, &n, distances[i], sites[i]);
+    for (int i = 0; i < 2 * LOADS; ++i) compare(l, n, distances[i], sites[i]);
   }
-  return n;
 }
 
 // The same for the middles of a gap, in the order of sites: of those as near the first one counts.
@@ -138,12 +137,13 @@ INLINE void store_site(const line_t* l, const bool along_z, global const short* 
 // What a work-group shares.
 typedef struct {
   int sites[(BAND + 1) * STRIP];                   // see slot_of()
-  int gap[ITEMS_OF_BAND];                          // of each item the last gap that it had a part of, and ...
-  nearest_site_t nearest[MIDDLES][ITEMS_OF_BAND];  // ... what it found for the places in its middle
+  int gap[MOST_OF_BAND];                          // of each item the last gap that it had a part of, and ...
+  nearest_site_t nearest[MIDDLES][MOST_OF_BAND];  // ... what it found for the places in its middle
 } band_t;
 
 // Where the site of a place of the band stands: that of the last one behind all others, for places behind it are
-// compared, too. Place 0 is the last one of the band before.
+// compared, too. (What is found for these is not read, and its squares may not fit.) Place 0 is the last one of the
+// band before.
 INLINE int slot_of(int place, int count) { return (place < count ? place : BAND) * STRIP; }
 
 INLINE void find_along_lines(constant images_t* images, const bool along_z, global const short* columns,
@@ -152,7 +152,7 @@ INLINE void find_along_lines(constant images_t* images, const bool along_z, glob
   const int size = along_z ? e.depth : e.height;
   const int strips = STRIPS_OF(e.width), bands = BANDS_OF(size);
   const int group = (int)get_group_id(0), bundle = group / strips, band = bundle % bands;
-  const int id = (int)get_local_id(0), item = id / STRIP, items = ITEMS_OF_BAND / STRIP;
+  const int id = (int)get_local_id(0), item = id / STRIP, items = (int)get_local_size(0) / STRIP;
   const int x = group % strips * STRIP + id % STRIP;
   const int before = band * BAND - 1, count = min(BAND, size - band * BAND);
   line_t l;
@@ -161,7 +161,11 @@ INLINE void find_along_lines(constant images_t* images, const bool along_z, glob
 
   // Half of the items look for the site of each end.
   const int looking = items / 2, is_last = item / looking, place = before + is_last * count;
-  if (place >= 0) b->nearest[0][id] = nearest_of_all(&l, along_z, columns, known, place, item % looking, looking);
+  if (place >= 0) {
+    nearest_site_t n;
+    find_nearest_of_all(&l, along_z, columns, known, place, item % looking, looking, &n);
+    b->nearest[0][id] = n;
+  }
   barrier(CLK_LOCAL_MEM_FENCE);
   if (item % looking == 0) {
     nearest_site_t n = {MOST_SQUARED, NO_SITE};
