@@ -3,9 +3,11 @@
 #define BOOST_TEST_MODULE known_answers
 #include <filesystem>
 #include <fstream>
+#include <limits>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <sstream>
+#include <tuple>
 
 #include "checks/known_answers.hpp"
 #include "formats/values.hpp"

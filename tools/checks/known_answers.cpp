@@ -103,13 +103,13 @@ const std::vector<KnownAnswer>& known_answers() {
       {"exact", manhattan, Axes::x, Scene::long_period, 0x31ebfe0273924a41},
       {"jfa", euclidean, none, Scene::full_size, 0xf001996b02f60428},
       {"djfa", euclidean, none, Scene::full_size, 0xf001996b02f60428},
-      {"exact", euclidean, none, Scene::points, 0},
-      {"exact", euclidean, xy, Scene::points, 0},
-      {"exact", manhattan, none, Scene::points, 0},
-      {"exact", euclidean, none, Scene::volume, 0},
-      {"exact", euclidean, Axes::xyz, Scene::volume, 0},
-      {"exact", euclidean, none, Scene::mask, 0},
-      {"exact", euclidean, xy, Scene::mask, 0},
+      {"exact", euclidean, none, Scene::points, 0xaf37ec7da1cf9130},
+      {"exact", euclidean, xy, Scene::points, 0xa642c5bbe1d2448d},
+      {"exact", manhattan, none, Scene::points, 0x3fb93ca577bc0552},
+      {"exact", euclidean, none, Scene::volume, 0x55122db87f37c0ad},
+      {"exact", euclidean, Axes::xyz, Scene::volume, 0x2fcb4623457ea524},
+      {"exact", euclidean, none, Scene::mask, 0x3d94d10a382b024e},
+      {"exact", euclidean, xy, Scene::mask, 0x3d94d10a382b024e},
   };
   return all;
 }
@@ -128,7 +128,7 @@ std::vector<std::vector<Point>> frames_of_points(const Setting& setting) {
   const auto below = [&](int end) {
     return static_cast<double>(random() % static_cast<unsigned>(end * parts)) / parts;
   };
-  std::vector<std::vector<Point>> frames(to_size(setting.frames));
+  std::vector<std::vector<Point>> frames(static_cast<std::size_t>(setting.frames));
   for (std::vector<Point>& points : frames) {
     for (std::size_t i = 0; i < setting.seeds; ++i) {
       const int share = setting.depth > 1 && i % 2 == 0 ? 5 : 1;
