@@ -150,6 +150,7 @@ Report exact_diagram_by_places(Filling& filling, DiagramState& state) {
           boxes_along(grid.width(), CROWD_SIDE) * boxes_along(grid.height(), CROWD_SIDE);
       return filling.commit(0, begin, label("label_squares", items, squares));
     }
+    constexpr std::size_t crowd_side = CROWD_SIDE, crowd_pixels = crowd_side * crowd_side;
     constexpr std::size_t crowds_along = PATCH / CROWD_SIDE, crowds_of_patch = crowds_along * crowds_along;
     const bool is_stamped =
         !have_z || (options.extent == Extent::fractions && grid.spacing() == std::array{1, 1, 1});
@@ -164,12 +165,12 @@ Report exact_diagram_by_places(Filling& filling, DiagramState& state) {
       fill(state.device, pending, cl_uint{1}, patches);
     }
     if (have_z) {
-      constexpr std::size_t boxes_of_patch = BOXES_ALONG * BOXES_ALONG * BOXES_ALONG;
+      constexpr std::size_t along = BOXES_ALONG, boxes_of_patch = along * along * along;
       return filling.commit(0, begin, label("label_boxes", items, boxes_of_patch * patches, pending));
     }
     label("list_patches", items, patches, pending, queue);
     // A few crowds may have far more places than all others, which wait for them then.
-    const std::size_t items_of_crowd = std::max(items, std::min<std::size_t>(group, CROWD_SIDE * CROWD_SIDE));
+    const std::size_t items_of_crowd = std::max(items, std::min(group, crowd_pixels));
     constexpr std::size_t crowds_of_unit = 16;  // at a time: most often there are none
     const std::size_t crowds = std::min(crowds_of_patch * patches, crowds_of_unit * units_of(device));
     const cl::Event end = label("label_crowds", items_of_crowd, crowds, queue);
