@@ -379,8 +379,10 @@ BOOST_AUTO_TEST_CASE(a_density_that_is_the_same_everywhere_changes_nothing) {
     BOOST_TEST(evenly.moved == weighted.moved, boost::test_tools::per_element());
     BOOST_TEST((of_one.read() == of_other.read()));
     for (std::size_t round = 0; round < evenly.energies.size(); ++round) {
-      // Each block of pixels rounds its energy down, in another unit.
-      BOOST_TEST(3 * evenly.energies[round] == weighted.energies[round], boost::test_tools::tolerance(1e-7));
+      // Each block of pixels rounds its energy down, in another unit; GPUs have more blocks.
+      const double tolerance = takes(Shape::vector) ? 1e-9 : 1e-7;
+      BOOST_TEST(3 * evenly.energies[round] == weighted.energies[round],
+                 boost::test_tools::tolerance(tolerance));
     }
   }
 }

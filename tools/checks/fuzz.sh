@@ -23,10 +23,10 @@ trap 'rm -rf "$work"' EXIT
 fuzz_one() { # TARGET
   local target=$1 log=$work/$1.log
   mkdir -p "$build/corpus/$target" "$build/findings"
-  # Output is discarded, but for libFuzzer's. OpenCV makes room for a strip of a TIFF by its claim, up to 1 GB, and touches what is there.
+  # Output is discarded, but for libFuzzer's.
   TMPDIR=$work "$(find "$build" -type f -name "fuzz_$target")" -max_total_time=$(((seconds + targets_in_all - 1) / targets_in_all)) \
     -timeout=20 -max_len=4096 \
-    -malloc_limit_mb=1100 -rss_limit_mb=2048 -print_final_stats=1 -close_fd_mask=3 \
+    -malloc_limit_mb=512 -rss_limit_mb=2048 -print_final_stats=1 -close_fd_mask=3 \
     -dict="$fuzz/dictionaries/$target.dict" -artifact_prefix="$build/findings/$target-" \
     "$build/corpus/$target" "$fuzz/corpus/$target" >"$log" 2>&1 || { cat "$log"; echo "$target: a finding"; return 1; }
   echo "$target: $(sed -n 's/^stat::number_of_executed_units: *//p' "$log") inputs, no finding"

@@ -94,6 +94,21 @@ int count_pages(const File& file) {
   return pages;
 }
 
+/// Throws Error if the file cannot hold what OpenCV makes room for: a tile, or all rows that a strip claims,
+/// also where the image has fewer. What takes no more than a few megabytes may be claimed.
+void check_claimed_block(const std::string& path, const File& file, ImageHeader block) {
+  constexpr double few_pixels = 1 << 24;
+  const auto rows_of_strip = field<std::uint32_t>(file, TIFFTAG_ROWSPERSTRIP);
+  if (TIFFIsTiled(file.get()) != 0) {
+    block.width = field<std::uint32_t>(file, TIFFTAG_TILEWIDTH);
+    block.height = field<std::uint32_t>(file, TIFFTAG_TILELENGTH);
+  } else if (rows_of_strip <= INT32_MAX) {  // more says that there is one strip
+    block.height = rows_of_strip;
+  }
+  if (static_cast<double>(block.width) * static_cast<double>(block.height) > few_pixels)
+    check_pixels(path, block, std::filesystem::file_size(path));
+}
+
 /// Blocks are tiles, or strips; samples of a pixel are together, or in a block for each band.
 class TiffRows : public ImageRows {
  public:
@@ -196,6 +211,7 @@ std::unique_ptr<ImageRows> open_tiff_image(const std::string& path) {
   info.type = type_of_samples(file);
   if (info.type.empty() || (colors != PHOTOMETRIC_MINISBLACK && colors != PHOTOMETRIC_MINISWHITE &&
                             colors != PHOTOMETRIC_RGB && colors != PHOTOMETRIC_MASK)) {
+    check_claimed_block(path, file, header);
     return nullptr;
   }
   info.width = header.width;
