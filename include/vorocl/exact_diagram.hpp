@@ -19,11 +19,12 @@ struct ExactOptions {
 /// where no two seeds share a pixel, for every order of the seeds. Where seeds at the centres of pixels are
 /// dense, the nearest seed of each row and then the best row is taken (as in separable distance transforms);
 /// else those seeds near that no other one beats at all four corners of a square of pixels are tried. Cost:
-/// in proportion to the pixels, whatever the distribution of the seeds, within a factor of a few
-/// (docs/performance.md). 4 bytes of device memory per pixel, the labels, and 12 per seed besides its
-/// position, and up to 10 of an index (24 with Shape::group, and 2 per pixel of squares of 32); where seeds
-/// are dense up to 3.3 (6.2) more per pixel in their place. Throws Error if seeds and diagram do not fit
-/// together or the device has too little memory.
+/// in proportion to the pixels, within a factor of a few (docs/performance.md); where points lie on a curve
+/// or surface with many per pixel, in proportion to that number too (docs/true_positions.md,
+/// docs/volumes.md). 4 bytes of device memory per pixel, the labels, and 12 per seed besides its position,
+/// and up to 12 of an index (24 with Shape::group, and 2 per pixel of squares of 32); where seeds are dense
+/// up to 3.3 (6.2) more per pixel in their place. Throws Error if seeds and diagram do not fit together or
+/// the device has too little memory.
 ///
 /// Of seeds with Snap::none the points themselves are taken: the nearest is that of the least (distance from
 /// the pixel's centre, y, x, id), in whole numbers of 1/4096 pixel: 8 more bytes of device memory per seed.
@@ -50,7 +51,7 @@ struct ExactOptions {
 /// and Error for other grids and without doubles (cl_khr_fp64). docs/globe.md says how.
 ///
 /// In a volume: of several seeds at the least distance the one that comes first by z, then y, then x. 4
-/// bytes of device memory per voxel, the labels, and 34 per seed besides its place (with Shape::group 38, and
+/// bytes of device memory per voxel, the labels, and 36 per seed besides its place (with Shape::group 38, and
 /// of points 1 per voxel of boxes of 16 x 16 x 8). Snapped seeds that stand close together, and those of
 /// masks, cost what their voxels do: with Shape::group 6 more bytes per voxel. Throws Error for the Manhattan
 /// metric. docs/volumes.md says how and how fast.

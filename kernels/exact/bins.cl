@@ -49,6 +49,16 @@ static inline void move_place(const places_of_bins_t* p, uint at, uint to) {
   if (IS_WEIGHTED) p->lags[to] = p->lags[at];
 }
 
+// --- blocks of places ---
+//
+// Of each block of PLACES_OF_BLOCK places of the index the bounds are known on CPUs, with a margin for floats: a walk
+// leaves out the blocks that its balls miss.
+
+#define BOUNDS_OF_BLOCK (2 * AXES_OF_PLACES + IS_WEIGHTED)
+#define FIRST_BOUND(block) \
+  ((size_t)((block) / BLOCKS_AT_ONCE) * (BLOCKS_AT_ONCE * BOUNDS_OF_BLOCK) + (size_t)((block) % BLOCKS_AT_ONCE))
+#define UNITS_OF_BOUNDS (1.f / ONE)
+
 // --- seeds at one place ---
 //
 // Only that of the lowest id can win (of the least lag, where there are weights), and lists could drop none

@@ -18,10 +18,39 @@ static inline float4 way_to(const scene_t* scene, uint at, int4 centre) {
   return (float4)(x, y, z, IS_WEIGHTED ? (float)scene->lags[at] * LAG_UNIT : 0);
 }
 
-// Finds the place of a walk that is nearest to a centre, of at most so many of each range; false if there is
-// none.
-static inline bool nearest_of_walk(const scene_t* scene, walk_t* walk, int4 centre, uint most,
-                                   float4* place) {
+// Lists the blocks of a source that may win in a box, behind the source; the source itself if there is no room.
+NOINLINE static source_t list_blocks(const scene_t* scene, box_t box, uint near, source_t source, blocks_t* b) {
+  const cuboid_t limits = limits_around(scene, box);
+  const balls_t balls = balls_around(box, way_to(scene, near, centre_of(box)));
+  walk_t walk = walk_over_balls(scene, &limits, balls, source);
+  const int begin = (source.end + BLOCKS_AT_ONCE - 1) / BLOCKS_AT_ONCE * BLOCKS_AT_ONCE;
+  source_t list = {b, begin, begin};
+  uint from, to;
+  int4 origin;
+  while (next_range(scene, &walk, 0, &from, &to, &origin)) {
+    const float4 shift = convert_float4(origin) * UNITS_OF_BOUNDS, margin = fabs(shift) * 0x1p-22f;
+    for (uint next; from < to; from = next) {
+      const uint block = from / PLACES_OF_BLOCK;
+      next = min(to, (block + 1) * PLACES_OF_BLOCK);
+      if (list.end == MOST_BLOCKS) return source;
+      const int i = list.end++;
+      b->from[i] = from, b->to[i] = next, b->x[i] = origin.x, b->y[i] = origin.y, b->z[i] = origin.z;
+      global const float* own = scene->bounds + FIRST_BOUND(block);
+      float* out = b->bounds + FIRST_BOUND(i);
+#pragma unroll
+      for (int axis = 0; axis < AXES_OF_PLACES; ++axis, own += 2 * BLOCKS_AT_ONCE, out += 2 * BLOCKS_AT_ONCE) {
+        out[0] = own[0] - shift[axis] - margin[axis];
+        out[BLOCKS_AT_ONCE] = own[BLOCKS_AT_ONCE] - shift[axis] + margin[axis];
+      }
+      if (IS_WEIGHTED) out[0] = own[0];
+    }
+  }
+  return list;
+}
+
+// The place of a walk that is nearest to a centre, of at most so many of each range; NO_PLACE if there is none. A
+// walk over a ball goes on in smaller ones.
+static inline uint nearest_of_walk(const scene_t* scene, walk_t* walk, int4 centre, uint most) {
   uint from, to;
   int4 origin;
   float8 least = INFINITY;
@@ -33,13 +62,13 @@ static inline bool nearest_of_walk(const scene_t* scene, walk_t* walk, int4 cent
       const int8 wins = (n < least) & (EIGHT < (int)(to - at));
       least = select(least, n, wins), nearest = select(nearest, at + as_uint8(EIGHT), as_uint8(wins));
     }
+    if (walk->has_blocks) walk->balls.n = fmin(walk->balls.n, radius_of_ball(least_float(least)));
   }
   const float found = least_float(least);
-  if (found == INFINITY) return false;
+  if (found == INFINITY) return NO_PLACE;
   uint lane[8];
   store_uints(nearest, lane);
-  *place = way_to(scene, lane[31 - clz(mask_of(least == found))], centre);
-  return true;
+  return lane[31 - clz(mask_of(least == found))];
 }
 
 // Whether the place near a box is farther than a side of what a work-item labels: by its lag, or as a heavy
@@ -49,27 +78,27 @@ static inline bool is_far_by_weights(float4 place) {
   return IS_WEIGHTED && distance_of(place) > side * side;
 }
 
-// Finds a place near the centre of a box, from it; false if there is no place at all. Where the bins of the
-// box are empty, a few places of each range around it say which ranges the nearest one is in. Places of the
-// box with long lags say so, too: a heavier one farther away may be nearer.
+// A place near the centre of a box; NO_PLACE if there is no place at all. Where the bins of the box are empty, a
+// known place or a few places of each range around say how far the nearest one is at most. Places of the box with
+// long lags say so, too: a heavier one farther away may be nearer.
 #define FEW_OF_RANGE 8
 #define ALL_OF_RANGE (UINT_MAX / 2)
-NOINLINE static bool find_near(const scene_t* scene, box_t box, const cuboid_t* limits, float4* place) {
+NOINLINE static uint find_near(const scene_t* scene, box_t box, const cuboid_t* limits, uint known, source_t source) {
   const int4 centre = centre_of(box), bits = scene->bins.bits;
-  for (int rings = 0;; rings = 2 * rings + 1) {
+  uint near = source.blocks ? known : NO_PLACE;
+  for (int rings = 0; near == NO_PLACE; rings = 2 * rings + 1) {
     const span_t x = clamped(with_bins_around(span_of(box.x, box.x + box.sx - 1), rings, bits.x), limits->x);
     const span_t y = clamped(with_bins_around(span_of(box.y, box.y + box.sy - 1), rings, bits.y), limits->y);
     const span_t z = clamped(with_bins_around(span_of(box.z, box.z + box.sz - 1), rings, bits.z), limits->z);
     walk_t walk = walk_over(scene, x, y, z);
-    if (nearest_of_walk(scene, &walk, centre, rings > 0 ? FEW_OF_RANGE : ALL_OF_RANGE, place)) {
-      if (rings > 0 || is_far_by_weights(*place)) {
-        walk = walk_over_balls(scene, limits, ball_around(centre, *place));
-        nearest_of_walk(scene, &walk, centre, ALL_OF_RANGE, place);
-      }
-      return true;
-    }
-    if (holds(x, limits->x) && holds(y, limits->y) && holds(z, limits->z)) return false;
+    near = nearest_of_walk(scene, &walk, centre, rings > 0 ? FEW_OF_RANGE : ALL_OF_RANGE);
+    if (near != NO_PLACE && rings == 0 && !is_far_by_weights(way_to(scene, near, centre))) return near;
+    if (near == NO_PLACE) near = known;
+    if (holds(x, limits->x) && holds(y, limits->y) && holds(z, limits->z)) break;
   }
+  if (near == NO_PLACE) return near;
+  walk_t walk = walk_over_balls(scene, limits, ball_around(centre, way_to(scene, near, centre)), source);
+  return nearest_of_walk(scene, &walk, centre, ALL_OF_RANGE);
 }
 
 // A walk over all that may win in a box, which goes on where a list was full.
@@ -80,13 +109,13 @@ typedef struct {
 } gathering_t;
 
 static inline gathering_t gathering_in(const scene_t* scene, box_t box, const cuboid_t* limits,
-                                       float4 place) {
-  const gathering_t start = {walk_in_balls(scene, box, limits, place), 0, 0, 0};
+                                       float4 place, source_t source) {
+  const gathering_t start = {walk_over_balls(scene, limits, balls_around(box, place), source), 0, 0, 0};
   return start;
 }
 
 // Gathers what a place does not drop; true if that is all of it. Full lists are cut by the corners, and
-// gathering goes on, unless they stay half full.
+// gathering goes on, unless three quarters stay.
 NOINLINE static bool gather(const scene_t* scene, box_t box, float4 place, gathering_t* gathering,
                             list_t* list, int* count) {
   const int4 centre = centre_of(box);
@@ -98,7 +127,7 @@ NOINLINE static bool gather(const scene_t* scene, box_t box, float4 place, gathe
     for (; g.from < g.to; g.from += 8) {
       if (some > MOST_IN_LIST - 8) {
         some = drop_beaten(scene, list, some, box);
-        if (some > MOST_IN_LIST / 2) {
+        if (some > MOST_IN_LIST / 4 * 3) {
           *gathering = g;
           *count = some;
           return false;
@@ -152,13 +181,10 @@ NOINLINE static uint search_pixel(const scene_t* scene, int x, int y, int z, uin
   const box_t box = box_at(x, y, z, 1, 1, 1);
   const cuboid_t limits = limits_around(scene, box);
   const int4 centre = centre_of(box);
-  float4 place;
-  if (known != NO_PLACE) {
-    place = way_to(scene, known, centre);
-  } else if (!find_near(scene, box, &limits, &place)) {
-    return NO_LABEL;
-  }
-  walk_t walk = walk_in_balls(scene, box, &limits, place);
+  const source_t the_index = {0, 0, 0};
+  const uint near = known != NO_PLACE ? known : find_near(scene, box, &limits, NO_PLACE, the_index);
+  if (near == NO_PLACE) return NO_LABEL;
+  walk_t walk = walk_over_balls(scene, &limits, balls_around(box, way_to(scene, near, centre)), the_index);
   winner_t best = {LONG_MAX, NO_PLACE};
   uint from, to;
   int4 origin;

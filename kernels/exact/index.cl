@@ -54,11 +54,34 @@ kernel void sort_chunks(global const given_t* restrict given, global const uint*
   }
 }
 
+// Notes the bounds of the blocks that begin in a range. One that ends behind it, where another item sorts, is taken
+// to be everywhere.
+static inline void bound_blocks(const places_of_bins_t* p, uint begin, uint end, global float* bounds) {
+  global const int* const along[3] = {p->x, p->y, p->z};
+  for (uint block = (begin + PLACES_OF_BLOCK - 1) / PLACES_OF_BLOCK; block * PLACES_OF_BLOCK < end; ++block) {
+    const uint at = block * PLACES_OF_BLOCK;
+    const bool is_whole = at + PLACES_OF_BLOCK <= end;
+    global float* out = bounds + FIRST_BOUND(block);
+    for (int i = 0; i < AXES_OF_PLACES; ++i, out += 2 * BLOCKS_AT_ONCE) {
+      out[0] = -INFINITY, out[BLOCKS_AT_ONCE] = INFINITY;
+      if (!is_whole) continue;
+      const extent_t extent = extent_in_index(along[i] + at, PLACES_OF_BLOCK);
+      const float from = (float)extent.first * UNITS_OF_BOUNDS, to = (float)extent.last * UNITS_OF_BOUNDS;
+      out[0] = from - fabs(from) * 0x1p-22f, out[BLOCKS_AT_ONCE] = to + fabs(to) * 0x1p-22f;
+    }
+#if IS_WEIGHTED
+    const int lag = is_whole ? extent_in_index(p->lags + at, PLACES_OF_BLOCK).first : 0;
+    out[0] = (float)lag * ((1 - 0x1p-22f) * LAG_UNIT * UNITS_OF_BOUNDS * UNITS_OF_BOUNDS);
+#endif
+  }
+}
+
 // A work-group of one item has a bucket. `lags`: of rows, then of places.
 kernel void sort_buckets(global const int4* restrict sorted, int4 bits, int4 size, uint shift,
                          global const uint* restrict ends, global const int* restrict lags_of_seeds,
                          global uint* restrict starts, global int* restrict xs, global int* restrict ys,
-                         global int* restrict zs, global uint* restrict ids, global int* restrict lags) {
+                         global int* restrict zs, global uint* restrict ids, global int* restrict lags,
+                         global float* restrict bounds) {
   local uint seen[1 << TABLE_BITS];
   const bins_t bins = bins_of(bits, size);
   const uint bucket = (uint)get_global_id(0), rows = (uint)(bins.rows * bins.slices),
@@ -94,9 +117,9 @@ kernel void sort_buckets(global const int4* restrict sorted, int4 bits, int4 siz
     lags[row] = least;
   }
 #endif
-  if (most <= MANY_OF_BIN) return;
-  for (uint row = first; row < last; ++row)
+  for (uint row = first; most > MANY_OF_BIN && row < last; ++row)
     drop_repeats_of_row(&places, starts + row * each, bins.columns, seen);
+  bound_blocks(&places, begin, end, bounds);
 }
 
 #endif

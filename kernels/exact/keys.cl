@@ -366,28 +366,27 @@ typedef struct {
   uint more;  // low bits
 #if !IS_MANHATTAN
   uint high[LIST_ROOM];
+  uint x[LIST_ROOM], y[LIST_ROOM], z[LIST_ROOM];  // what keys lose from pixel to pixel
 #endif
 } keys_t;
 
 // The keys of eight places at a pixel, which is so far from that of the origin.
 static inline int8 keys_at(const list_t* list, const keys_t* keys, int k, int x, int y, int z) {
-  (void)z;
 #if IS_MANHATTAN
+  (void)z;
   return as_int8(absolute(vload8(0, list->x + k) - HALF - x * ONE) +
                  absolute(vload8(0, list->y + k) - HALF - y * ONE) - keys->of_first);
 #else
-  uint8 own = as_uint8(vload8(0, list->x + k) - list->x[0]) * (uint)(x * SPACING_X);
-  own += as_uint8(vload8(0, list->y + k) - list->y[0]) * (uint)(y * SPACING_Y);
-#if IS_VOLUME
-  own += as_uint8(vload8(0, list->z + k) - list->z[0]) * (uint)(z * SPACING_Z);
-#endif
-  return as_int8(vload8(0, keys->high + k) - keys->of_first - (own << keys->more));
+  uint8 own = vload8(0, keys->high + k) - vload8(0, keys->x + k) * (uint)x - vload8(0, keys->y + k) * (uint)y;
+  if (IS_VOLUME) own -= vload8(0, keys->z + k) * (uint)z;
+  return as_int8(own);
 #endif
 }
 
 // Finds the places that win at the pixels of a box of eight columns, pixel by pixel; false if keys do not
 // hold them.
-#define ROWS (IS_VOLUME ? 4 : 8)  // of a part, at once
+#define ROWS 8  // of a part, at once
+#define ROWS_OF_SLICE (IS_VOLUME ? 4 : 8)
 NOINLINE static bool find_by_keys(const scene_t* scene, const list_t* list, int count, box_t b, uint* found) {
   const float spread = spread_of_keys(list, count, b);
   if (spread >= MOST_SPREAD) return false;
@@ -397,10 +396,17 @@ NOINLINE static bool find_by_keys(const scene_t* scene, const list_t* list, int 
 #else
   keys.more = (uint)min(ilogb(MOST_SPREAD / spread), LOW_BITS);
   for (int k = 0; k < count; k += 8) {
-    const squares_t squares = squares_of(load_from_list(list, k));
-    store_uints(squares.high << keys.more | squares.low >> (LOW_BITS - keys.more), keys.high + k);
+    const places8_t p = load_from_list(list, k);
+    const squares_t squares = squares_of(p);
+    const uint8 high = squares.high << keys.more | squares.low >> (LOW_BITS - keys.more);
+    if (k == 0) keys.of_first = high.s0;
+    store_uints(high - keys.of_first, keys.high + k);
+    store_uints(as_uint8(p.x - list->x[0]) * SPACING_X << keys.more, keys.x + k);
+    store_uints(as_uint8(p.y - list->y[0]) * SPACING_Y << keys.more, keys.y + k);
+#if IS_VOLUME
+    store_uints(as_uint8(p.z - list->z[0]) * SPACING_Z << keys.more, keys.z + k);
+#endif
   }
-  keys.of_first = keys.high[0];
 #endif
   const uint8 columns = as_uint8(EIGHT - 4);
   for (int row = 0; row < b.sy * b.sz; row += ROWS) {
@@ -416,13 +422,9 @@ NOINLINE static bool find_by_keys(const scene_t* scene, const list_t* list, int 
 #if IS_MANHATTAN
         const uint8 of_columns = absolute(list->x[i] - HALF - as_int8(columns) * ONE) - keys.of_first;
 #else
-        const uint from_x = (uint)(list->x[i] - list->x[0]) * SPACING_X << keys.more;
-        const uint from_y = (uint)(list->y[i] - list->y[0]) * SPACING_Y << keys.more;
-        uint of_row = keys.high[i] - keys.of_first - (uint)y * from_y;
-#if IS_VOLUME
-        of_row -= (uint)z * ((uint)(list->z[i] - list->z[0]) * SPACING_Z << keys.more);
-#endif
-        uint8 own = of_row - columns * from_x;
+        const uint from_y = keys.y[i], from_z = IS_VOLUME ? keys.z[i] : 0;
+        uint8 of_slice = keys.high[i] - (uint)y * from_y - (IS_VOLUME ? (uint)z * from_z : 0) - columns * keys.x[i];
+        uint8 own = of_slice;
 #endif
 #pragma unroll
         for (int r = 0; r < ROWS; ++r) {
@@ -431,7 +433,11 @@ NOINLINE static bool find_by_keys(const scene_t* scene, const list_t* list, int 
 #endif
           least_of_eight[r] = min(least_of_eight[r], as_int8(own));
 #if !IS_MANHATTAN
-          own -= from_y;
+          if (r % ROWS_OF_SLICE < ROWS_OF_SLICE - 1) {
+            own -= from_y;
+          } else {
+            own = of_slice -= from_z;
+          }
 #endif
         }
       }
@@ -446,13 +452,14 @@ NOINLINE static bool find_by_keys(const scene_t* scene, const list_t* list, int 
       int lane[8], from[8], to[8];
       store_ints(least[r], lane), store_ints(first[r], from), store_ints(last[r], to);
       for (int i = 0; i < 8; ++i) {
-        const int px = b.x + i, py = b.y + b.sy / 2 + y + r, pz = b.z + b.sz / 2 + z;
+        const int py = y + r % ROWS_OF_SLICE, pz = z + r / ROWS_OF_SLICE;
         uint best = NO_PLACE;
         for (int k = from[i]; k <= to[i]; k += 8) {
-          uint mask = mask_of((keys_at(list, &keys, k, i - 4, y + r, z) == lane[i]) & (EIGHT + k < count));
+          uint mask = mask_of((keys_at(list, &keys, k, i - 4, py, pz) == lane[i]) & (EIGHT + k < count));
           for (; mask != 0; mask &= mask - 1) {
-            const uint at = list->at[k + 31 - (int)clz(mask & (0 - mask))];
-            if (best == NO_PLACE || is_nearer(scene, px, py, pz, at, best)) best = at;
+            const uint at = list->at[k + (int)lowest_bit(mask)];
+            const int4 pixel = (int4)(b.x + i, b.y + b.sy / 2 + py, b.z + b.sz / 2 + pz, 0);
+            if (best == NO_PLACE || is_nearer(scene, pixel.x, pixel.y, pixel.z, at, best)) best = at;
           }
         }
         found[(row + r) * 8 + i] = best;

@@ -33,6 +33,24 @@ static inline int sum_of(int8 v) {
   return a.x + a.y + a.z + a.w;
 }
 
+// The least and the greatest of a list of numbers.
+typedef struct {
+  int first, last;
+} extent_t;
+#define DEFINE_EXTENT(name, space)                                                       \
+  static inline extent_t name(space const int* values, int count) {                      \
+    int8 least = INT_MAX, most = INT_MIN;                                                \
+    for (int k = 0; k < count; k += 8) {                                                 \
+      const int8 some = vload8(0, values + k), is_there = EIGHT + k < count;             \
+      least = min(least, select((int8)INT_MAX, some, is_there));                         \
+      most = max(most, select((int8)INT_MIN, some, is_there));                           \
+    }                                                                                    \
+    const extent_t extent = {least_int(least), ~least_int(~most)};                       \
+    return extent;                                                                       \
+  }
+DEFINE_EXTENT(extent_of, private)
+DEFINE_EXTENT(extent_in_index, global)
+
 // The lanes whose condition holds, as bits.
 static inline uint mask_of(int8 condition) {
   const ulong bits = as_ulong(convert_char8(condition)) & 0x8040201008040201ul;

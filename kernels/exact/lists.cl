@@ -49,6 +49,7 @@ typedef struct {
   global const uint* ids;
   global const int* lags;      // by place
   global const int* row_lags;  // the least of each row of bins; null in the group shape
+  global const float* bounds;  // of blocks of places; null there, too
   global const int2*
       order;            // by id, if places may be images of seeds in a plane: what orders these; else null
   int4 first, last;     // the pixels that get labels; others of the grid get none
@@ -307,21 +308,6 @@ NOINLINE static int drop_by_corners(list_t* list, int count, box_t box) {
   return kept;
 }
 
-// The least and the greatest of a list of numbers.
-typedef struct {
-  int first, last;
-} extent_t;
-static inline extent_t extent_of(const int* values, int count) {
-  int8 least = INT_MAX, most = INT_MIN;
-  for (int k = 0; k < count; k += 8) {
-    const int8 some = vload8(0, values + k), is_there = EIGHT + k < count;
-    least = min(least, select((int8)INT_MAX, some, is_there)),
-    most = max(most, select((int8)INT_MIN, some, is_there));
-  }
-  const extent_t extent = {least_int(least), ~least_int(~most)};
-  return extent;
-}
-
 #if !IS_MANHATTAN
 // Along one axis, the part (c - d) (c + d - 2 p) of |c - p|^2 - |d - p|^2 where p goes over a width around a
 // middle: the least, and the sum of the terms that make it.
@@ -476,7 +462,7 @@ NOINLINE static int drop_by_firsts(const scene_t* scene, list_t* list, int count
       const int8 along_y = -min(as_int8(absolute(p.y + sy)) - north, as_int8(absolute(p.y - sy)) - south);
       uint stays = mask_of((along_x <= along_y) & (EIGHT + k < count));
       for (uint ties = stays & mask_of(along_x == along_y); ties != 0; ties &= ties - 1) {
-        const uint other = list->at[k + 31 - (int)clz(ties & (0 - ties))];
+        const uint other = list->at[k + (int)lowest_bit(ties)];
         if (other != rival.at && comes_first(scene, rival.at, other)) stays ^= ties & (0 - ties);
       }
       kept = keep(list, kept, -((int8)(int)stays >> EIGHT & 1), &p, at);

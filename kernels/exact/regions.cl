@@ -45,6 +45,7 @@
 
 typedef struct {
   list_t of_region, of_tile, of_box, of_part;
+  blocks_t blocks;
 } lists_t;
 
 // Child i of a box, by x, y, z.
@@ -145,19 +146,22 @@ NOINLINE static void label_region(const scene_t* scene, box_t region, const list
 
 typedef enum { A_REGION, A_TILE, A_BOX, A_PART } level_t;
 
-// Labels a box from a list of its own; false if the list overflows and the box is no part.
-NOINLINE static bool label_alone(const scene_t* scene, box_t b, level_t level, lists_t* lists) {
+// Labels a box from a list of its own; false if the list overflows and the box is no part. `near`: a known place, or
+// NO_PLACE, and then one near the box.
+NOINLINE static bool label_alone(const scene_t* scene, box_t b, level_t level, uint* near, source_t source,
+                                 lists_t* lists) {
   const cuboid_t limits = limits_around(scene, b);
-  float4 place;
-  if (!find_near(scene, b, &limits, &place)) {
+  *near = find_near(scene, b, &limits, *near, source);
+  if (*near == NO_PLACE) {
     show_one(scene, b, NO_LABEL);
     return true;
   }
+  const float4 place = way_to(scene, *near, centre_of(b));
   list_t* const list = level == A_REGION ? &lists->of_region
                        : level == A_TILE ? &lists->of_tile
                        : level == A_BOX  ? &lists->of_box
                                          : &lists->of_part;
-  gathering_t gathering = gathering_in(scene, b, &limits, place);
+  gathering_t gathering = gathering_in(scene, b, &limits, place, source);
   int count;
   if (!gather(scene, b, place, &gathering, list, &count)) {
     if (level != A_PART) return false;
@@ -213,17 +217,32 @@ static inline around_t around(const scene_t* scene, box_t b, const bool wants_la
   return found;
 }
 
+static inline bool is_empty(const scene_t* scene, box_t b) { return around(scene, b, false).places == 0; }
+
 NOINLINE static void label_by_lists(const scene_t* scene, box_t outer, lists_t* lists) {
+  const source_t the_index = {0, 0, 0};
   for (int i = 0; i < children_of(outer, TILE, TILE, TILE_Z); ++i) {
     const box_t tile = child_of(outer, i, TILE, TILE, TILE_Z);
     if (!is_in_grid(scene, tile)) continue;
-    if (around(scene, tile, false).places < FEW_OF_TILE && label_alone(scene, tile, A_TILE, lists)) continue;
+    uint near = NO_PLACE;
+    source_t source = the_index;
+    const bool has_few = around(scene, tile, false).places < FEW_OF_TILE;
+    if (has_few && label_alone(scene, tile, A_TILE, &near, the_index, lists)) continue;
     for (int j = 0; j < children_of(tile, BOX_X, BOX_Y, BOX_Z); ++j) {
       const box_t box = child_of(tile, j, BOX_X, BOX_Y, BOX_Z);
-      if (!is_in_grid(scene, box) || label_alone(scene, box, A_BOX, lists)) continue;
+      if (!is_in_grid(scene, box)) continue;
+      // Where a crowd is in the box itself bins are small enough.
+      const bool is_listed = source.blocks && is_empty(scene, box);
+      source_t of_box = is_listed ? list_blocks(scene, box, near, source, &lists->blocks) : the_index;
+      const bool may_fit = of_box.end - of_box.begin < MOST_IN_LIST / PLACES_OF_BLOCK;
+      if (may_fit && label_alone(scene, box, A_BOX, &near, of_box, lists)) continue;
+      if (!source.blocks && is_empty(scene, box)) {
+        source = list_blocks(scene, tile, near, the_index, &lists->blocks);
+        of_box = list_blocks(scene, box, near, source, &lists->blocks);
+      }
       for (int k = 0; k < children_of(box, PART_X, PART_Y, PART_Z); ++k) {
         const box_t part = child_of(box, k, PART_X, PART_Y, PART_Z);
-        if (is_in_grid(scene, part)) label_alone(scene, part, A_PART, lists);
+        if (is_in_grid(scene, part)) label_alone(scene, part, A_PART, &near, of_box, lists);
       }
     }
   }
@@ -261,9 +280,10 @@ static inline bool label_if_dense(const scene_t* scene, box_t b, stamps_t* stamp
 // however many these are; false elsewhere, and if the list overflows.
 static inline bool label_if_heavy(const scene_t* scene, box_t own, lists_t* lists) {
   const cuboid_t limits = limits_around(scene, own);
-  float4 place;
-  return find_near(scene, own, &limits, &place) && is_far_by_weights(place) &&
-         label_alone(scene, own, SIDE == REGION ? A_REGION : A_TILE, lists);
+  const source_t the_index = {0, 0, 0};
+  uint near = find_near(scene, own, &limits, NO_PLACE, the_index);
+  return near != NO_PLACE && is_far_by_weights(way_to(scene, near, centre_of(own))) &&
+         label_alone(scene, own, SIDE == REGION ? A_REGION : A_TILE, &near, the_index, lists);
 }
 
 typedef union {
@@ -271,19 +291,20 @@ typedef union {
   stamps_t stamps;
 } rooms_t;
 
-// `lags` are of rows, then of places; `zs` is for volumes, `order` for planes, where places may be images of seeds.
+// `lags` are of rows, then of places; `bounds` of blocks; `zs` is for volumes, `order` for planes, where places may be
+// images of seeds.
 kernel void label_regions(global const uint* restrict starts, global const int* restrict xs,
                           global const int* restrict ys, global const int* restrict zs,
                           global const uint* restrict ids, global const int* restrict lags,
-                          global const int2* restrict order, int has_images, int4 bits, int4 size, int4 first,
-                          int4 last, global uint* restrict labels) {
+                          global const float* restrict bounds, global const int2* restrict order,
+                          int has_images, int4 bits, int4 size, int4 first, int4 last, global uint* restrict labels) {
   const int item = (int)get_global_id(0), columns = (size.x - 1) / SIDE + 1, rows = (size.y - 1) / SIDE + 1;
   const box_t own = box_at(item % columns * SIDE, item / columns % rows * SIDE, item / columns / rows * SIDE,
                            SIDE, SIDE, IS_VOLUME ? SIDE : 1);
   const bins_t bins = bins_of(bits, size);
   global const int* const of_places = IS_WEIGHTED ? lags + bins.rows * bins.slices : lags;
   const scene_t scene = {bins, size, AXES_OF(size), starts, xs, ys, zs, ids, of_places,
-                         lags, has_images ? order : 0, first, last, labels};
+                         lags, bounds, has_images ? order : 0, first, last, labels};
   if (!is_in_grid(&scene, own)) return;
   const box_t region =
       box_at(own.x / REGION * REGION, own.y / REGION * REGION, own.z, REGION, REGION, REGION_Z);
@@ -292,7 +313,9 @@ kernel void label_regions(global const uint* restrict starts, global const int* 
   const bool has_few = (ulong)there.places * (REGION * REGION * REGION_Z) < (ulong)FEW_OF_REGION * there.pixels;
   if (has_few && (IS_VOLUME || (region.x + REGION <= size.x && region.y + REGION <= size.y))) {
     const bool is_first = own.x == region.x && own.y == region.y;
-    if (is_first && !label_alone(&scene, region, A_REGION, &rooms.lists)) {
+    const source_t the_index = {0, 0, 0};
+    uint near = NO_PLACE;
+    if (is_first && !label_alone(&scene, region, A_REGION, &near, the_index, &rooms.lists)) {
       label_by_lists(&scene, region, &rooms.lists);
     }
     return;

@@ -37,5 +37,8 @@
 #define PLACES_OF_BIN 4        // about
 #define MOST_ITEMS_OF_ROW 256  // of a group that gives a row of bins its part of the list (group/index.cl)
 #define BEHIND_PLACES 16       // values behind each list of the index, which is read in whole vectors
+#define PLACES_OF_BLOCK 16     // of which the bounds are known, on CPUs
+#define BLOCKS_AT_ONCE 8       // whose bounds stand together
+#define MOST_BOUNDS (7 * BLOCKS_AT_ONCE)  // of these: both ends along each axis, and the least lag
 
 #endif

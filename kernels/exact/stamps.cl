@@ -330,7 +330,7 @@ NOINLINE static bool label_by_stamps(const scene_t* scene, box_t tile, int side,
         for (int i = 0; i < 8; ++i) row[x + i] = s->labels[rank[i]];
         if (left == 0) continue;
         for (uint rest = mask_of((keys >= limit) & (EIGHT < sx - x)); rest != 0; rest &= rest - 1) {
-          const int lane = 31 - (int)clz(rest & (0 - rest));
+          const int lane = (int)lowest_bit(rest);
           const uint number = (uint)(s->order[rank[lane]] & 0xffff);
           const uint known = mask_of(keys == NO_KEY) >> lane & 1u ? NO_PLACE : s->at[number];
           row[x + lane] = search_pixel(scene, tile.x + x + lane, tile.y + y, tile.z + z, known);

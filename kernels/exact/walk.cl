@@ -1,15 +1,10 @@
 // Walking the bins around a box, row by row, images of them along periodic axes included.
-//
-// BALLS. What is nearest at a corner of a box lies in the ball around it through any known place. What is
-// nearest anywhere in the box lies in one of these balls: a ball around a pixel centre of the box, through
-// the same place, lies in their union. So each row of bins has its own stretch along x, or none. (By the
-// Manhattan metric balls are diamonds, and so it is with them.) Lags make balls smaller: those of the places
-// of a row are at least the row's.
+// Each row of bins has its own stretch along x in the balls of the box, or none.
 
 #ifndef VOROCL_EXACT_WALK
 #define VOROCL_EXACT_WALK
 
-#include "exact/lists.cl"
+#include "exact/balls.cl"
 
 typedef struct {
   int from, to;  // pixels of an axis, both ends included
@@ -50,63 +45,17 @@ static inline span_t of_image(span_t s, int image, int size, int periodic) {
   return periodic ? span_of(max(s.from - image * size, 0), min(s.to - image * size, size - 1)) : s;
 }
 
-// A value for each corner of a box.
-#if IS_VOLUME
-typedef float8 corners_t;
-typedef int8 int_corners_t;
-#define EAST ((corners_t)(-1, 1, -1, 1, -1, 1, -1, 1))
-#define SOUTH ((corners_t)(-1, -1, 1, 1, -1, -1, 1, 1))
-#define BELOW ((corners_t)(-1, -1, -1, -1, 1, 1, 1, 1))
-static inline float least_of_corners(corners_t v) { return least_float(v); }
-#else
-typedef float4 corners_t;
-typedef int4 int_corners_t;
-#define EAST ((corners_t)(-1, 1, -1, 1))
-#define SOUTH ((corners_t)(-1, -1, 1, 1))
-#define BELOW ((corners_t)(0))
-static inline float least_of_corners(corners_t v) { return fmin(fmin(v.x, v.y), fmin(v.z, v.w)); }
-#endif
-
-// Centres and radii, squared if Euclidean and the known place's lag added, in units of the spacing.
-typedef struct {
-  corners_t x, y, z, n;
-} balls_t;
-
-static inline corners_t with_margin(corners_t n) { return n * (1 + 0x1p-16f) + 0x1p-4f; }
-#define SQUARED_UNIT (1.f / ((float)ONE * (float)ONE))
-static inline corners_t radius_of(corners_t n) { return IS_MANHATTAN ? n : sqrt(n); }
-
-static inline balls_t balls_around(box_t b, float4 place) {
-  const float4 half_way = between_centres(b) / 2, centre = convert_float4(centre_of(b)) * (1.f / ONE);
-  const corners_t sides_x = EAST * half_way.x, sides_y = SOUTH * half_way.y, sides_z = BELOW * half_way.z;
-  const corners_t x = sides_x - place.x * (1.f / ONE), y = sides_y - place.y * (1.f / ONE);
-  balls_t balls;
-  balls.x = sides_x + centre.x, balls.y = sides_y + centre.y, balls.z = sides_z + centre.z;
-#if IS_MANHATTAN
-  balls.n = with_margin(fabs(x) + fabs(y));
-#else
-  const corners_t z = sides_z - place.z * (1.f / ONE);
-  const corners_t n = x * x + y * y + (IS_VOLUME ? z * z : 0);
-  balls.n = with_margin(IS_WEIGHTED ? n + place.w * SQUARED_UNIT : n);
-#endif
-  return balls;
-}
-// One ball, in each lane.
-static inline balls_t ball_around(int4 centre, float4 place) {
-  const float4 middle = convert_float4(centre) * (1.f / ONE);
-  balls_t ball;
-  ball.x = middle.x, ball.y = middle.y, ball.z = middle.z;
-  ball.n = with_margin((corners_t)(distance_of(place) * (IS_MANHATTAN ? 1.f / ONE : SQUARED_UNIT)));
-  return ball;
-}
-
 #define ROWS_OF_BALLS 6
 
-// A box of bins: ranges of the list, and where the images of their places lie.
+// What of a source may lie in balls: ranges of the index, and where the images of their places lie. Of the index itself
+// it is a box of bins.
 typedef struct {
   span_t x, y, z;
   balls_t balls;
-  bool has_balls;
+  bool has_balls, has_blocks;  // whether rows, and blocks of long ranges, are held against the balls
+  uint from, to;               // of a long range, what is left
+  source_t list;               // and of a list
+  uint some;                   // those of the eight ranges before list.begin that the balls meet, as bits
   span_t row;                                             // along x, of the present row
   int image_x, image_y, image_z, last_x, last_y, last_z;  // images
   int row_y, row_z, end_y, end_z;                         // bins
@@ -126,7 +75,9 @@ static inline void enter_z(const scene_t* scene, walk_t* w) {
 static inline walk_t walk_over(const scene_t* scene, span_t x, span_t y, span_t z) {
   walk_t w;
   w.x = x, w.y = y, w.z = z;
-  w.has_balls = false;
+  w.has_balls = w.has_blocks = false;
+  w.from = w.to = 0;
+  w.list.blocks = 0;
   w.image_x = 1, w.last_x = 0;
   w.image_y = image_at(y.from, scene->size.y, IS_PERIODIC(scene, y)),
   w.last_y = image_at(y.to, scene->size.y, IS_PERIODIC(scene, y));
@@ -177,21 +128,58 @@ static inline bool row_in_balls(const scene_t* scene, walk_t* w) {
   return w->row.from <= w->row.to;
 }
 
+// The next of a long range's blocks that the balls meet, as a range.
+#define LONG_RANGE (4 * PLACES_OF_BLOCK)
+NOINLINE static bool next_blocks(const scene_t* scene, walk_t* w, uint* from, uint* to) {
+  balls_t balls = w->balls;
+  balls.x -= (float)((w->image_x - 1) * scene->size.x * SPACING_X);  // the range's image is the one before
+  balls.y -= (float)(w->image_y * scene->size.y * SPACING_Y);
+  balls.z -= (float)(w->image_z * scene->size.z * SPACING_Z);
+  while (w->from < w->to) {
+    const uint block = w->from / PLACES_OF_BLOCK, lane = block % BLOCKS_AT_ONCE, eight = block - lane;
+    const uint meets = blocks_in_balls(bounds_in_index(scene->bounds + FIRST_BOUND(eight)), &balls) >> lane << lane;
+    const uint first = lowest_bit(meets | 1u << BLOCKS_AT_ONCE), end = first + lowest_bit(~(meets >> first));
+    *from = max(w->from, (eight + first) * PLACES_OF_BLOCK);
+    *to = w->from = min(w->to, (eight + end) * PLACES_OF_BLOCK);
+    if (*from < *to) return true;
+  }
+  return false;
+}
+
+// The next range of a list that the balls meet.
+NOINLINE static bool next_listed(walk_t* w, int4 centre, uint* from, uint* to, int4* origin) {
+  while (w->some == 0) {
+    if (w->list.begin >= w->list.end) return false;
+    const bounds8_t bounds = bounds_in_list(w->list.blocks->bounds + FIRST_BOUND(w->list.begin));
+    w->some = blocks_in_balls(bounds, &w->balls) & ((1u << min(w->list.end - w->list.begin, BLOCKS_AT_ONCE)) - 1);
+    w->list.begin += BLOCKS_AT_ONCE;
+  }
+  const blocks_t* const b = w->list.blocks;
+  const int i = w->list.begin - BLOCKS_AT_ONCE + (int)lowest_bit(w->some);
+  w->some &= w->some - 1;
+  *from = b->from[i], *to = b->to[i], *origin = centre + (int4)(b->x[i], b->y[i], b->z[i], 0);
+  return true;
+}
+
 // The next range that is not empty; false at the end. `origin`: what is subtracted from its places, a centre
-// in the image's place.
+// in the image's place. It is that of the range before where that goes on.
 static inline bool next_range(const scene_t* scene, walk_t* w, int4 centre, uint* from, uint* to,
                               int4* origin) {
   const bins_t* const bins = &scene->bins;
+  if (w->list.blocks) return next_listed(w, centre, from, to, origin);
   while (true) {
-    for (; w->image_x <= w->last_x; ++w->image_x) {
-      const span_t x = of_image(w->row, w->image_x, scene->size.x, IS_PERIODIC(scene, x));
+    if (w->from < w->to && next_blocks(scene, w, from, to)) return true;
+    while (w->image_x <= w->last_x) {
+      const int image = w->image_x++;
+      const span_t x = of_image(w->row, image, scene->size.x, IS_PERIODIC(scene, x));
       const uint first = (uint)((w->row_z * bins->rows + w->row_y) * (bins->columns + 1));
       *from = scene->starts[first + (uint)(x.from >> bins->bits.x)];
       *to = scene->starts[first + (uint)(x.to >> bins->bits.x) + 1];
       if (*from == *to) continue;
-      *origin = centre - (int4)(w->image_x, w->image_y, w->image_z, 0) * scene->size * (ONE * SPACINGS);
-      ++w->image_x;
-      return true;
+      *origin = centre - (int4)(image, w->image_y, w->image_z, 0) * scene->size * (ONE * SPACINGS);
+      if (!w->has_blocks || *to - *from < LONG_RANGE) return true;
+      w->from = *from, w->to = *to;
+      if (next_blocks(scene, w, from, to)) return true;
     }
     while (++w->row_y > w->end_y) {
       if (IS_PERIODIC(scene, y) && w->image_y < w->last_y) {
@@ -220,18 +208,20 @@ static inline span_t span_of_balls(corners_t at, corners_t reach, int spacing, s
               to = -least_of_corners(-at - reach) / (float)spacing;
   return clamped(span_of((int)fmax(from - 1, -most), (int)fmin(to + 1, most)), limits);
 }
-static inline walk_t walk_over_balls(const scene_t* scene, const cuboid_t* limits, balls_t balls) {
+static inline walk_t walk_over_balls(const scene_t* scene, const cuboid_t* limits, balls_t balls, source_t source) {
+  if (source.blocks) {
+    walk_t walk;
+    walk.balls = balls, walk.has_blocks = true, walk.list = source, walk.some = 0;
+    return walk;
+  }
   const corners_t reach = radius_of(balls.n);
   walk_t walk = walk_over(scene, span_of_balls(balls.x, reach, SPACING_X, limits->x),
                           span_of_balls(balls.y, reach, SPACING_Y, limits->y),
                           IS_VOLUME ? span_of_balls(balls.z, reach, SPACING_Z, limits->z) : span_of(0, 0));
   walk.balls = balls;
+  walk.has_blocks = true;
   walk.has_balls = IS_VOLUME || ((walk.y.to - walk.y.from) >> scene->bins.bits.y) >= ROWS_OF_BALLS;
   return walk;
-}
-// The walk over all that may win in a box where a place is known.
-static inline walk_t walk_in_balls(const scene_t* scene, box_t box, const cuboid_t* limits, float4 place) {
-  return walk_over_balls(scene, limits, balls_around(box, place));
 }
 
 #endif

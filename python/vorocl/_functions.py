@@ -130,8 +130,8 @@ def diagram(
     lowest row of `points`. A method that floods, and ``snap=True``, move points to the centres of their pixels first.
 
     In a volume, of a shape (D, H, W), points are rows (x, y, z): of several at the least distance the one with the least
-    z wins, then y, then x, then the row. There "exact" is Euclidean and needs a CPU, "jfa" and its variants are the
-    other methods, there are no tilts, and points outside are refused unless they are to be absent.
+    z wins, then y, then x, then the row. There "exact" is Euclidean, "jfa" and its variants are the other
+    methods, there are no tilts, and points outside are refused unless they are to be absent.
 
     Parameters
     ----------

@@ -23,6 +23,7 @@ struct PlacesWorkspace {
   cl::Buffer counts, ends, sorted;        // while the index is made
   cl::Buffer table;                       // likewise, in the group shape
   cl::Buffer starts, x, y, z, ids, lags;  // the index (kernels/exact/bins.cl)
+  cl::Buffer bounds;                      // of its blocks, on CPUs
   cl::Buffer pending, queue;              // patches without labels as yet, and those with crowds
   cl::Buffer open;                        // pixels that look for their places alone
 };
@@ -85,7 +86,7 @@ Report exact_diagram_by_places(Filling& filling, DiagramState& state) {
   const auto bins_along = [&](int axis) { return boxes_along(size.s[axis], 1 << bits.s[axis]); };
   const std::size_t rows = bins_along(1) * bins_along(2);
   const std::size_t entries = rows * (bins_along(0) + 1), room = count + BEHIND_PLACES;
-  auto& [counts, ends, sorted, table, starts, x, y, z, ids, lags, pending, queue, open] =
+  auto& [counts, ends, sorted, table, starts, x, y, z, ids, lags, bounds, pending, queue, open] =
       state.workspace<PlacesWorkspace>();
   state.reserve(starts, (entries + 1) * word);
   for (cl::Buffer* const list : {&x, &y, &ids}) state.reserve(*list, room * word);
@@ -181,6 +182,8 @@ Report exact_diagram_by_places(Filling& filling, DiagramState& state) {
   state.reserve(counts, chunks * BUCKETS * word);
   state.reserve(ends, BUCKETS * word);
   state.reserve(sorted, room * sizeof(cl_int4));
+  constexpr std::size_t places_at_once = PLACES_OF_BLOCK * BLOCKS_AT_ONCE;
+  state.reserve(bounds, (room / places_at_once + 1) * MOST_BOUNDS * sizeof(float));
   cl_uint shift = 0;
   while ((rows - 1) >> shift >= BUCKETS) ++shift;
   // Work-items that do much each: small groups spread them over the compute units.
@@ -192,13 +195,14 @@ Report exact_diagram_by_places(Filling& filling, DiagramState& state) {
       .over_items(chunks, given.places, given_ids, has_ids, count, chunk_count, bits, size, shift, counts,
                   sorted);
   kernel("sort_buckets", 1)
-      .over_items(BUCKETS, sorted, bits, size, shift, ends, of_seeds, starts, x, y, of_z, ids, of_lags);
+      .over_items(BUCKETS, sorted, bits, size, shift, ends, of_seeds, starts, x, y, of_z, ids, of_lags,
+                  bounds);
   const int side = have_z ? SIDE_OF_VOLUME : SIDE_OF_PLANE;
   const std::size_t items =
       boxes_along(grid.width(), side) * boxes_along(grid.height(), side) * boxes_along(grid.depth(), side);
   const cl::Event end = kernel("label_regions", 1)
-                            .over_items(items, starts, x, y, of_z, ids, of_lags, given.order, has_ids, bits,
-                                        size, given.first, given.last, state.labels);
+                            .over_items(items, starts, x, y, of_z, ids, of_lags, bounds, given.order, has_ids,
+                                        bits, size, given.first, given.last, state.labels);
   return filling.commit(0, begin, end);
 }
 

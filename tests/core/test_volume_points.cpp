@@ -200,22 +200,38 @@ BOOST_AUTO_TEST_CASE(crowds_have_no_wrong_voxel) {
   const auto below = [&](std::int64_t end) {
     return static_cast<std::int64_t>(rng() % static_cast<std::uint64_t>(end));
   };
-  const Grid grid(40, 35, 66);
-  for (int kind = 0; kind < 5; ++kind) {
-    std::vector<Spot> seeds(6000);
-    for (Spot& seed : seeds) {
-      seed = {20 * parts + 5, 17 * parts + 1000, 30 * parts + 77};  // one point
-      const auto axis = static_cast<std::size_t>(kind);
-      if (kind < 3) seed[axis] = below(35 * parts);  // a line
-      if (kind == 3) seed = {seed[0] + below(parts), seed[1] + below(parts), seed[2] + below(parts)};
+  enum Kind : std::size_t { along_x, along_y, along_z, in_one_voxel, at_one_point, in_a_plane, on_a_sphere };
+  for (const Grid& grid : {Grid(40, 35, 66), Grid(40, 35, 66, Axes::xz)}) {
+    for (const Kind kind : {along_x, along_y, along_z, in_one_voxel, at_one_point, in_a_plane, on_a_sphere}) {
+      // Of a surface so many that they are too many for the lists of most boxes.
+      std::vector<Spot> seeds(kind < in_a_plane ? 6000 : 60000);
+      for (Spot& seed : seeds) {
+        seed = {20 * parts + 5, 17 * parts + 1000, 30 * parts + 77};
+        if (kind <= along_z) seed[kind] = below(35 * parts);
+        if (kind == in_one_voxel)
+          seed = {seed[0] + below(parts), seed[1] + below(parts), seed[2] + below(parts)};
+        if (kind == in_a_plane) seed = {below(40 * parts), below(35 * parts), seed[2]};
+        if (kind == on_a_sphere) {
+          const double height = static_cast<double>(below(parts)) / parts * 2 - 1;
+          const double angle = static_cast<double>(below(parts)) / parts * 2 * std::acos(-1.0);
+          const double flat = 15 * parts * std::sqrt(1 - height * height);
+          seed = {seed[0] + std::llround(flat * std::cos(angle)),
+                  seed[1] + std::llround(flat * std::sin(angle)),
+                  seed[2] + std::llround(15 * parts * height)};
+        }
+      }
+      const Labels labels = labels_of(test_device(), grid, seeds);
+      std::size_t wrong = 0;
+      each_voxel(grid, [&](const Spot& voxel, std::size_t i) {
+        if (i % (kind < in_a_plane ? 97 : 499) != 0) return;
+        wrong += labels[i] != label_by_definition(grid, seeds, voxel) ? 1 : 0;
+      });
+      BOOST_TEST(wrong == 0u, size_text(grid) << ", kind " << kind);
+      if (kind == at_one_point) {
+        BOOST_TEST(std::count(labels.begin(), labels.end(), 0u) ==
+                   static_cast<std::ptrdiff_t>(grid.pixels()));
+      }
     }
-    const Labels labels = labels_of(test_device(), grid, seeds);
-    std::size_t wrong = 0;
-    each_voxel(grid, [&](const Spot& voxel, std::size_t i) {
-      if (i % 97 == 0) wrong += labels[i] != label_by_definition(grid, seeds, voxel) ? 1 : 0;
-    });
-    BOOST_TEST(wrong == 0u, "kind " << kind);
-    if (kind == 4) BOOST_TEST(std::count(labels.begin(), labels.end(), 0u) == std::ptrdiff_t{40} * 35 * 66);
   }
 }
 

@@ -21,7 +21,7 @@ inline const char* name_of(ListLength lists) {
 /// tools/checks/kernels.sh reads them here.
 constexpr const char* short_lists =
     "-DMOST_RANKED=2 -DMOST_OF_PART=2 "
-    "-DMOST_IN_LIST=24 -DMOST_OF_KEYS=4 -DMOST_STAMPS=600 "
+    "-DMOST_IN_LIST=24 -DMOST_OF_KEYS=4 -DMOST_BLOCKS=24 -DMOST_STAMPS=600 "
     "-DMOST_SEEDS=64 -DMOST_NODES=64 -DMOST_COMPARISONS=0";
 
 /// A device whose exact engine has lists of this length, on the same queue and with the same tuning. Short

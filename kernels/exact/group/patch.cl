@@ -16,9 +16,11 @@
       global const int2 *restrict order, int has_images, int4 bits, int4 size, int4 first, int4 last,  \
       global uint *restrict labels
 #define PERIODIC_AXES (int4)(PERIODIC_X, PERIODIC_Y, PERIODIC_Z, 0)
-#define SCENE_OF_PARAMETERS                                                                                           \
-  { bins_of(bits, size), size, PERIODIC_AXES, starts, xs, ys, zs, ids, lags, 0, has_images ? order : 0, first, last, \
-    labels }
+#define SCENE_OF_PARAMETERS                                                                                \
+  {                                                                                                        \
+    bins_of(bits, size), size, PERIODIC_AXES, starts, xs, ys, zs, ids, lags, 0, 0, has_images ? order : 0, \
+        first, last, labels                                                                                \
+  }
 
 // Of volumes those of points are stamped, whose voxels are cubes: dense seeds at centres are marks of a mask.
 #define IS_STAMPED (!IS_VOLUME || (FRACTION_BITS > 1 && !IS_SPACED))
