@@ -154,7 +154,7 @@ def diagram(
     Notes
     -----
     A thread keeps the device memory of its last call, 4 bytes per pixel for "exact" and 13 for the others, until it
-    makes a call with another grid; in a volume 4.2 and 12. `Diagram` keeps its own.
+    makes a call with another grid; in a volume 4 and 12. `Diagram` keeps its own.
 
     Examples
     --------

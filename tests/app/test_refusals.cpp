@@ -127,6 +127,12 @@ BOOST_AUTO_TEST_CASE(bad_options_are_usage_errors) {
           {"jfb", "standard-flooding", "1+jfa"});
   refuses(folder, render + "--size 10x10 --metric chess", usage, {"chess", "manhattan"});
   refuses(folder, render + "--size 10x10 --neighbourhood hex", usage, {"hex", "von-neumann"});
+  refuses(folder, "render --random 5 --size 10x10 --neighbourhood moore -o a.png", usage,
+          {"--neighbourhood", "exact has no waves"});
+  refuses(folder, "render --points p.csv --size 9x9x9 --metric great-circle -o a.png", usage,
+          {"great-circle", "without a depth"});
+  refuses(folder, "simulate --trajectory t.xyz --size 9x9 --radius r --compare-with exact --cells c.csv",
+          usage, {"--compare-with", "--radius"});
   refuses(folder, "bench --random 5 --size 10x10 --methods jfa,jfb", usage, {"jfb", "opencv"});
   refuses(folder, "bench --random 5 --size 10x10 --methods jfa --repeat 0", usage, {"--repeat"});
 }

@@ -371,7 +371,7 @@ BOOST_AUTO_TEST_CASE(densities_that_cannot_be_are_refused) {
   const std::string relax = "relax --random 5 --rounds 3 --labels l.npy --density ";
   refuses(folder, relax + "negative.npy", failure, {"negative.npy", "pixel (3, 7)", "-2", "at least 0"});
   refuses(folder, relax + "nan.npy", failure, {"nan.npy holds", "nan", "pixel (3, 7)"});
-  refuses(folder, relax + "white.png", failure, {"white.png is 0 everywhere"});
+  refuses(folder, relax + "white.png", failure, {"white.png weighs nothing anywhere"});
   refuses(folder, relax + "points.npy", failure, {"points.npy", ".npy"});
   refuses(folder, relax + "none.png", failure, {"none.png"});
   refuses(folder, relax + "white.png --size 20x20", failure, {"white.png is 10 x 20", "20 x 20"});

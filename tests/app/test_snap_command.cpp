@@ -268,6 +268,15 @@ BOOST_AUTO_TEST_CASE(a_simulation_compares_with_the_truth_that_is_asked_for) {
   BOOST_TEST(wrong("") == wrong("--snap"));
   BOOST_TEST(wrong("") < 1);
   BOOST_TEST(wrong("--no-snap") > 2);
+  const auto similarity = [&](const std::string& methods) {
+    return json::parse(succeeds(folder, "simulate --json --trajectory t.lammpstrj --size 50x50 " + methods))
+        .at("similarity")
+        .at("mean")
+        .get<double>();
+  };
+  BOOST_TEST(similarity("--method jfa --compare-with exact") > 99);
+  BOOST_TEST(similarity("--method exact --compare-with jfa") ==
+             similarity("--method jfa --compare-with exact"));
   // Both are exact: one of points, and so is the other.
   const std::string both =
       "simulate --json --trajectory t.lammpstrj --size 50x50 --compare-with exact --no-snap";

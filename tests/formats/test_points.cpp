@@ -61,6 +61,17 @@ BOOST_AUTO_TEST_CASE(csv_files_are_read_in_all_their_variants) {
   BOOST_TEST((csv("id,y,name,x\n1,-2,\"a, \"\"b\"\"\",1.5\n2,\"0.25\",c,300\n") == two));
   BOOST_TEST((csv("lon,lat\n1.5,-2\n300,0.25\n", Columns{"lon", "lat"}) == two));
   BOOST_TEST((csv("LON,lat\n1.5,-2\n300,0.25\n", Columns{"lon", "lat"}) == two));
+  for (const char* x : {"lon", "lng", "Long", "longitude"}) {
+    for (const char* y : {"lat", "Latitude"}) {
+      const std::string text = std::string("x,y,") + x + "," + y + "\n1.5,-2,7,8\n300,0.25,9,9\n";
+      BOOST_TEST((csv(text.substr(4, text.find('\n') - 3) + "1.5,-2\n300,0.25\n") == two));
+      BOOST_TEST((csv(text) == two));  // on the globe degrees come first
+      const TemporaryFolder folder;
+      CsvOptions globe;
+      globe.on_globe = true;
+      BOOST_TEST((pairs_of(read_csv(folder.file("p.csv", text), globe).points) == Pairs{{7, 8}, {9, 9}}));
+    }
+  }
   BOOST_TEST((csv("a,b,c\n-2,9,1.5\n0.25,9,300\n", Columns{"2", "0"}) == two));
   BOOST_TEST((csv("-2,9,1.5\n0.25,9,300\n", Columns{"2", "0"}) == two));
   BOOST_TEST((csv("1,0\n-2,1.5\n0.25,300\n", Columns{"1", "0"}) == Pairs{{0, 1}, {1.5, -2}, {300, 0.25}}));
@@ -469,6 +480,12 @@ BOOST_AUTO_TEST_CASE(tiff_masks_have_the_stored_numbers_of_every_type) {
   BOOST_REQUIRE(inverted.notes.size() == 1u);
   BOOST_TEST(inverted.notes[0].find("0 is shown as white") != std::string::npos);
   BOOST_TEST((read_density(folder / "a.tif").values == std::vector<float>{0, 255, 0, 0, 0, 255}));
+  const auto complex = [](TIFF* file) {
+    TIFFSetField(file, TIFFTAG_SAMPLEFORMAT, SAMPLEFORMAT_COMPLEXIEEEFP);
+  };
+  const std::string of_complex =
+      write_samples<std::uint64_t>(folder / "a.tif", 3, 2, {0, 1, 0, 0, 0, 1}, complex);
+  BOOST_CHECK_THROW(read_mask(of_complex), Error);
   const auto bits = [](TIFF* file) { TIFFSetField(file, TIFFTAG_BITSPERSAMPLE, 1); };
   const Pixels of_bits = pixels_of(write_samples<std::uint8_t>(folder / "a.tif", 10, 1, {0x81, 0x40}, bits));
   BOOST_TEST((of_bits == Pixels{1, 0, 0, 0, 0, 0, 0, 1, 0, 1}));

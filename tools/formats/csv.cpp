@@ -80,16 +80,19 @@ bool counts_from_zero(const Fields& fields) {
   return fields.size() > 1;
 }
 
-/// The columns of points that the header names; none if it names no x and y.
-std::optional<Columns> usual_columns(const Fields& header, bool has_z) {
-  static const std::pair<const char*, const char*> all[] = {{"x", "y"},
-                                                            {"lon", "lat"},
-                                                            {"lng", "lat"},
-                                                            {"long", "lat"},
-                                                            {"longitude", "latitude"},
-                                                            {"x_coord", "y_coord"}};
-  for (const auto& [x, y] : all) {
-    if (index_of(header, x) && index_of(header, y)) return Columns{x, y, has_z ? "z" : ""};
+/// The columns of points that the header names, on the globe rather its degrees; none if it names no x and y.
+std::optional<Columns> usual_columns(const Fields& header, bool has_z, bool on_globe = false) {
+  using Names = std::vector<const char*>;
+  const std::pair<Names, Names> degrees = {{"lon", "lng", "long", "longitude"}, {"lat", "latitude"}};
+  const std::pair<Names, Names> usual = {{"x"}, {"y"}}, others = {{"x_coord"}, {"y_coord"}};
+  const auto of_header = [&](const Names& names) {
+    return std::find_if(names.begin(), names.end(),
+                        [&](const char* name) { return index_of(header, name).has_value(); });
+  };
+  for (const auto& [xs, ys] :
+       on_globe ? std::array{degrees, usual, others} : std::array{usual, degrees, others}) {
+    const auto x = of_header(xs), y = of_header(ys);
+    if (x != xs.end() && y != ys.end()) return Columns{*x, *y, has_z ? "z" : ""};
   }
   return std::nullopt;
 }
@@ -293,7 +296,8 @@ bool CsvReader::begin() {
   if (!first.note.empty()) notes_.push_back(path_ + ": " + first.note);
   indices_.emplace();
   if (options_.columns || first.has_names) {
-    const Columns usual = usual_columns(fields_, has_z_).value_or(Columns{"x", "y", has_z_ ? "z" : ""});
+    const Columns usual =
+        usual_columns(fields_, has_z_, options_.on_globe).value_or(Columns{"x", "y", has_z_ ? "z" : ""});
     *indices_ = locate(options_.columns.value_or(usual), line, first.is_header);
   } else {
     refuse_columns_to_choose_from(line, (options_.value_column.empty() ? 2 : 3) + (has_z_ ? 1 : 0), has_z_);

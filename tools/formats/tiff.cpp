@@ -73,6 +73,7 @@ ImageHeader header_of(const File& file) {
 std::string type_of_samples(const File& file) {
   const auto bits = field<std::uint16_t>(file, TIFFTAG_BITSPERSAMPLE);
   const auto format = field<std::uint16_t>(file, TIFFTAG_SAMPLEFORMAT);
+  if (format == SAMPLEFORMAT_COMPLEXINT || format == SAMPLEFORMAT_COMPLEXIEEEFP) return "";
   const char kind = format == SAMPLEFORMAT_INT ? 'i' : format == SAMPLEFORMAT_IEEEFP ? 'f' : 'u';
   const bool is_part = kind == 'u' && (bits == 1 || bits == 2 || bits == 4) &&
                        field<std::uint16_t>(file, TIFFTAG_SAMPLESPERPIXEL) == 1;

@@ -56,12 +56,13 @@ void print_result(const CellsOptions& options, const Seeds& seeds, const Report&
   const std::size_t unlabelled = view.window.pixels() - statistics.pixels;
   if (options.json) {
     Json result = json_of_diagram(options.method, options.method_options.metric, seeds, view);
-    result.update(Json{{"cells", statistics.cells}, {"empty_cells", statistics.empty_cells}});
+    result.update(Json{{"seeds", seeds.alive()},
+                       {"cells", statistics.cells},
+                       {"empty_cells", statistics.empty_cells},
+                       {fmt::format("unlabelled_{}s", name_of_pixel(view)), unlabelled}});
     if (options.is_volume()) {
-      result.update(Json{{"seeds", seeds.alive()},
-                         {"unlabelled_voxels", unlabelled},
-                         {"mean_volume", statistics.mean_area},
-                         {"volume_deviation", statistics.area_deviation}});
+      result.update(
+          Json{{"mean_volume", statistics.mean_area}, {"volume_deviation", statistics.area_deviation}});
     } else {
       result.update(Json{{"mean_area", statistics.mean_area},
                          {"area_deviation", statistics.area_deviation},

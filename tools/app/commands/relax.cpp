@@ -125,7 +125,8 @@ std::vector<float> density_of_grid(const RelaxCommand& options, std::optional<De
   }
   if (*std::max_element(density->values.begin(), density->values.end()) > 0)
     return std::move(density->values);
-  throw Error(options.density_path + " is 0 everywhere; some pixel must weigh something");
+  throw Error(options.density_path +
+              " weighs nothing anywhere: a picture is white or transparent, an array 0");
 }
 
 struct Rounds {

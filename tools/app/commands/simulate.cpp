@@ -179,7 +179,10 @@ void run(const SimulateOptions& options) {
 
 /// Points that something floods are snapped. Throws UsageError if they must not be.
 void choose_snap(SimulateOptions& options) {
-  if (options.compare_with && options.compare_with->exact && !options.method.exact) {
+  if (!options.seeds.weight_column.empty() && options.compare_with) {
+    throw UsageError("--compare-with knows no --weights and no --radius: it judges labels by distances");
+  }
+  if (options.compare_with && options.compare_with->exact != options.method.exact) {
     options.seeds.usual_snap = Snap::to_pixels;  // with --no-snap, what floods is judged by the points
   } else {
     snap_for(options.method, options.seeds);

@@ -102,6 +102,8 @@ void add_method_options(Command& command, MethodOptions& options, Globe globe) {
 }
 
 void check_volume_method(const Method& method, Metric metric) {
+  if (metric == Metric::great_circle)
+    throw UsageError("--metric great-circle is for maps: give --size WxH, without a depth");
   if (method.exact && metric != Metric::euclidean) {
     throw UsageError(
         "exact diagrams of volumes and of spaced planes are Euclidean; of methods that make these jump "
@@ -122,6 +124,10 @@ void check_method_options(const Command& command, const std::vector<Method>& met
   for (const Method& method : methods) as_usage([&] { check_options(method, options); });
   for (const char* name : {"--von-neumann-waves", "--extra-waves", "--refresh-interval", "--reach"}) {
     if (command.has(name)) throw UsageError(std::string(name) + " is for the method djfa");
+  }
+  const auto is_exact = [](const Method& method) { return method.exact; };
+  if (command.has("--neighbourhood") && std::all_of(methods.begin(), methods.end(), is_exact)) {
+    throw UsageError("--neighbourhood is for methods that flood; the method exact has no waves");
   }
 }
 

@@ -149,12 +149,12 @@ class FrameFiles {
       *table_ << header;
     }
     if (header == header_ && names == units_) return;
-    const std::string px = Units().of_area();
+    const bool px_may_do =
+        units.are_of_data() && !units.is_of_volume();  // a volume's spacing changes as well
     throw Error(fmt::format(
         "frame {} is measured in other units than the frames before, because its box has "
         "another shape, and {} is one table; begin again with one per frame, such as {}/%05d.csv{}",
-        frame, request_.path, request_.kind.option.substr(2),
-        units.of_area() == px ? "" : ", or with --units px"));
+        frame, request_.path, request_.kind.option.substr(2), px_may_do ? ", or with --units px" : ""));
   }
   void list(int frame, std::int64_t time) {
     if (collection_) listed_.push_back({time, fs::path(files_->path(frame)).filename().string()});

@@ -227,14 +227,16 @@ CsvPoints read_points(const SeedOptions& options, bool has_z) {
 
 void refuse_csv_options(const SeedOptions& options) {
   if (extension_of(options.points) == ".csv") return;
-  const char* const given = options.columns                  ? "--columns"
-                            : options.decimal_comma          ? "--decimal"
-                            : !options.keep.empty()          ? "--keep"
-                            : !options.weight_column.empty() ? options.are_radii ? "--radius" : "--weights"
-                                                             : nullptr;
+  const char* const given = options.columns         ? "--columns"
+                            : options.decimal_comma ? "--decimal"
+                            : !options.keep.empty() ? "--keep"
+                                                    : nullptr;
   if (given != nullptr) throw UsageError(std::string(given) + " is for .csv files");
-  if (!options.value_column.empty())
-    throw UsageError("--color column:NAME is for .csv files and trajectories");
+  const char* const column = !options.value_column.empty()   ? "--color column:NAME"
+                             : options.weight_column.empty() ? nullptr
+                             : options.are_radii             ? "--radius"
+                                                             : "--weights";
+  if (column != nullptr) throw UsageError(std::string(column) + " is for .csv files and trajectories");
 }
 
 const char* option_of_data(const SeedOptions& options) {

@@ -95,6 +95,7 @@ class Units {
   }
 
   bool are_of_data() const { return area_in_data_; }
+  bool is_of_volume() const { return is_volume_; }
 
   /// "data" or "px"; of lengths in a volume whose axes are spaced "spacing 1:1:4".
   const char* of_area() const { return is_globe_ ? "km^2" : area_in_data_ ? "data" : "px"; }
