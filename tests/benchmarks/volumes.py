@@ -2,7 +2,8 @@
 """Times labels of volumes beside edt and SciPy, and counts the wrong voxels of jump flooding.
 
 Needs the packages vorocl, edt and scipy, and a CPU as the device. Programs take turns, and the least of some rounds is
-printed, in ms. Those named "labels" are from seeds on the device to labels on the device; the others from array to array.
+printed, in ms. Those named "points" (anywhere in the set's voxels) and "snapped" (at their centres) are from seeds on the device
+to labels on the device; the others from array to array.
 """
 
 import argparse
@@ -39,18 +40,22 @@ def seeds_of(name, side, random):
 class Work:
     """What is timed, of one set."""
 
-    def __init__(self, seeds, side):
+    def __init__(self, seeds, side, random):
         self.mask = np.ones((side,) * 3, np.uint8)
         self.mask[seeds[:, 2], seeds[:, 1], seeds[:, 0]] = 0
-        self.seeds = vorocl.Seeds(seeds + 0.5, self.mask.shape)
+        self.seeds = vorocl.Seeds(seeds + random.uniform(size=seeds.shape), self.mask.shape)
+        self.centres = vorocl.Seeds(seeds + 0.5, self.mask.shape, snap=True)
         self.diagram = vorocl.Diagram(self.mask.shape)
         self.wrong = 0
 
-    def labels(self):
+    def points(self):
         return self.diagram.fill(self.seeds).milliseconds
 
+    def snapped(self):
+        return self.diagram.fill(self.centres).milliseconds
+
     def jfa(self):
-        milliseconds = self.diagram.fill(self.seeds, "jfa").milliseconds
+        milliseconds = self.diagram.fill(self.centres, "jfa").milliseconds
         self.wrong = self.diagram.errors().wrong_pixels
         return milliseconds
 
@@ -80,12 +85,13 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--side", type=int, default=256)
     parser.add_argument("--sets", nargs="+", default=["4096", "512", "64", "8", "plane", "line", "sphere", "corner", "solid"])
-    parser.add_argument("--work", nargs="+", default=["labels", "distances", "indices", "edt", "jfa", "scipy"])
+    parser.add_argument("--work", nargs="+", default=["points", "snapped", "distances", "indices", "edt", "jfa", "scipy"])
     parser.add_argument("--repeat", type=int, default=4)
     options = parser.parse_args()
     print("| set | " + " | ".join(options.work) + " | wrong voxels of jfa |\n" + "| --- " * (len(options.work) + 2) + "|")
     for name in options.sets:
-        work = Work(seeds_of(name, options.side, np.random.default_rng(12)), options.side)
+        random = np.random.default_rng(12)
+        work = Work(seeds_of(name, options.side, random), options.side, random)
         least = dict.fromkeys(options.work, np.inf)
         for repetition in range(options.repeat):
             for what in options.work:
