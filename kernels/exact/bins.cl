@@ -51,8 +51,8 @@ static inline void move_place(const places_of_bins_t* p, uint at, uint to) {
 
 // --- blocks of places ---
 //
-// Of each block of PLACES_OF_BLOCK places of the index the bounds are known on CPUs, with a margin for floats: a walk
-// leaves out the blocks that its balls miss.
+// Of each block of PLACES_OF_BLOCK places of the index the bounds are known on CPUs where bins have many places, with a
+// margin for floats: a walk leaves out the blocks that its balls miss.
 
 #define BOUNDS_OF_BLOCK (2 * AXES_OF_PLACES + IS_WEIGHTED)
 #define FIRST_BOUND(block) \

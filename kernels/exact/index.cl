@@ -54,23 +54,24 @@ kernel void sort_chunks(global const given_t* restrict given, global const uint*
   }
 }
 
-// Notes the bounds of the blocks that begin in a range. One that ends behind it, where another item sorts, is taken
-// to be everywhere.
-static inline void bound_blocks(const places_of_bins_t* p, uint begin, uint end, global float* bounds) {
+// Notes the bounds of the blocks that begin in a range, if that has crowds. One that ends behind it, where another item
+// sorts, is taken to be everywhere.
+static inline void bound_blocks(const places_of_bins_t* p, uint begin, uint end, bool has_crowds,
+                                global float* bounds) {
   global const int* const along[3] = {p->x, p->y, p->z};
   for (uint block = (begin + PLACES_OF_BLOCK - 1) / PLACES_OF_BLOCK; block * PLACES_OF_BLOCK < end; ++block) {
     const uint at = block * PLACES_OF_BLOCK;
-    const bool is_whole = at + PLACES_OF_BLOCK <= end;
+    const bool is_bound = has_crowds && at + PLACES_OF_BLOCK <= end;
     global float* out = bounds + FIRST_BOUND(block);
     for (int i = 0; i < AXES_OF_PLACES; ++i, out += 2 * BLOCKS_AT_ONCE) {
       out[0] = -INFINITY, out[BLOCKS_AT_ONCE] = INFINITY;
-      if (!is_whole) continue;
+      if (!is_bound) continue;
       const extent_t extent = extent_in_index(along[i] + at, PLACES_OF_BLOCK);
       const float from = (float)extent.first * UNITS_OF_BOUNDS, to = (float)extent.last * UNITS_OF_BOUNDS;
       out[0] = from - fabs(from) * 0x1p-22f, out[BLOCKS_AT_ONCE] = to + fabs(to) * 0x1p-22f;
     }
 #if IS_WEIGHTED
-    const int lag = is_whole ? extent_in_index(p->lags + at, PLACES_OF_BLOCK).first : 0;
+    const int lag = is_bound ? extent_in_index(p->lags + at, PLACES_OF_BLOCK).first : 0;
     out[0] = (float)lag * ((1 - 0x1p-22f) * LAG_UNIT * UNITS_OF_BOUNDS * UNITS_OF_BOUNDS);
 #endif
   }
@@ -119,7 +120,7 @@ kernel void sort_buckets(global const int4* restrict sorted, int4 bits, int4 siz
 #endif
   for (uint row = first; most > MANY_OF_BIN && row < last; ++row)
     drop_repeats_of_row(&places, starts + row * each, bins.columns, seen);
-  bound_blocks(&places, begin, end, bounds);
+  bound_blocks(&places, begin, end, most > MANY_OF_BIN, bounds);
 }
 
 #endif
