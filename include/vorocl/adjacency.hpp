@@ -2,12 +2,12 @@
 #pragma once
 
 #include <cstdint>
-#include <memory>
 #include <vector>
 
 #include "vorocl/diagram.hpp"
 #include "vorocl/export.h"
 #include "vorocl/opencl.hpp"
+#include "vorocl/own_state.hpp"
 #include "vorocl/report.hpp"
 
 namespace vorocl {
@@ -35,11 +35,6 @@ struct CellPair {
 /// Ordering: all work goes to the device's in-order queue, in the order of the calls.
 class VOROCL_API AdjacencyResult {
  public:
-  AdjacencyResult();
-  ~AdjacencyResult();
-  AdjacencyResult(AdjacencyResult&& other) noexcept;
-  AdjacencyResult& operator=(AdjacencyResult&& other) noexcept;
-
   /// How many pairs of cells share a pixel edge. Waits. Throws BadPoint if the frame of the seeds had one; so
   /// do all of these. 0 while the result is empty.
   std::size_t pairs() const;
@@ -61,7 +56,7 @@ class VOROCL_API AdjacencyResult {
 
  private:
   friend struct Internal;
-  std::unique_ptr<AdjacencyState> state_;
+  OwnState<AdjacencyState> state_;
 };
 
 /// Finds the pairs of cells that share a pixel edge, and the length of their common border. Pixels without a
@@ -81,11 +76,6 @@ VOROCL_API Report adjacency(const Diagram& diagram, AdjacencyResult& result);
 /// What vertices() found, on the device; as AdjacencyResult.
 class VOROCL_API VerticesResult {
  public:
-  VerticesResult();
-  ~VerticesResult();
-  VerticesResult(VerticesResult&& other) noexcept;
-  VerticesResult& operator=(VerticesResult&& other) noexcept;
-
   /// How many there are; 0 while the result is empty. Waits. Throws BadPoint if the frame of the seeds had
   /// one.
   std::size_t count() const;
@@ -95,7 +85,7 @@ class VOROCL_API VerticesResult {
 
  private:
   friend struct Internal;
-  std::unique_ptr<VerticesState> state_;
+  OwnState<VerticesState> state_;
 };
 
 /// The pixel corners where three or more cells meet: the vertices of the diagram. Corners on the window's

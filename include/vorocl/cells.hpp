@@ -4,12 +4,12 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
-#include <memory>
 #include <vector>
 
 #include "vorocl/diagram.hpp"
 #include "vorocl/export.h"
 #include "vorocl/opencl.hpp"
+#include "vorocl/own_state.hpp"
 #include "vorocl/report.hpp"
 #include "vorocl/seeds.hpp"
 
@@ -69,11 +69,6 @@ struct CellShape {
 /// Ordering: all work goes to the device's in-order queue, in the order of the calls.
 class VOROCL_API CellSumsResult {
  public:
-  CellSumsResult();
-  ~CellSumsResult();
-  CellSumsResult(CellSumsResult&& other) noexcept;
-  CellSumsResult& operator=(CellSumsResult&& other) noexcept;
-
   std::size_t size() const;
   const cl::Buffer& area() const;   ///< uint32 per cell
   const cl::Buffer& sum_x() const;  ///< int64 per cell
@@ -85,17 +80,12 @@ class VOROCL_API CellSumsResult {
 
  private:
   friend struct Internal;
-  std::unique_ptr<CellSumsState> state_;
+  OwnState<CellSumsState> state_;
 };
 
 /// What cell_shapes() found, as CellSumsResult.
 class VOROCL_API CellShapesResult {
  public:
-  CellShapesResult();
-  ~CellShapesResult();
-  CellShapesResult(CellShapesResult&& other) noexcept;
-  CellShapesResult& operator=(CellShapesResult&& other) noexcept;
-
   std::size_t size() const;
 
   /// int32 left, top, front, right, bottom, back per cell; front and back of a plane are 0.
@@ -110,7 +100,7 @@ class VOROCL_API CellShapesResult {
 
  private:
   friend struct Internal;
-  std::unique_ptr<CellShapesState> state_;
+  OwnState<CellShapesState> state_;
 };
 
 /// The cells of a diagram as a whole. Absent seeds do not count.
@@ -125,11 +115,6 @@ struct CellStatistics {
 /// What cell_statistics() found, on the device; as CellSumsResult.
 class VOROCL_API CellStatisticsResult {
  public:
-  CellStatisticsResult();
-  ~CellStatisticsResult();
-  CellStatisticsResult(CellStatisticsResult&& other) noexcept;
-  CellStatisticsResult& operator=(CellStatisticsResult&& other) noexcept;
-
   /// Waits. Nothing but zeros while the result is empty. Throws BadPoint if the frame of the seeds had one.
   CellStatistics read() const;
 
@@ -139,7 +124,7 @@ class VOROCL_API CellStatisticsResult {
 
  private:
   friend struct Internal;
-  std::unique_ptr<CellStatisticsState> state_;
+  OwnState<CellStatisticsState> state_;
 };
 
 /// Sums the pixels of every cell. The sums are 64-bit integers made with 32-bit atomics alone, so they are

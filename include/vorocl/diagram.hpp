@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstdint>
-#include <memory>
 #include <string>
 #include <vector>
 
@@ -10,6 +9,7 @@
 #include "vorocl/export.h"
 #include "vorocl/grid.hpp"
 #include "vorocl/opencl.hpp"
+#include "vorocl/own_state.hpp"
 #include "vorocl/seeds.hpp"
 
 namespace vorocl {
@@ -46,10 +46,6 @@ class VOROCL_API Diagram {
   /// same address copies nothing. Elsewhere this is as the first constructor. What is there counts for
   /// nothing, and is defined after read() alone. Waits for the device when it is destroyed.
   Diagram(const Device& device, const Window& window, std::uint32_t* labels);
-
-  ~Diagram();
-  Diagram(Diagram&& other) noexcept;
-  Diagram& operator=(Diagram&& other) noexcept;
 
   const Device& device() const;
   const Window& window() const;
@@ -98,7 +94,7 @@ class VOROCL_API Diagram {
  private:
   friend struct Internal;
   DiagramState& state() const;
-  std::unique_ptr<DiagramState> state_;
+  OwnState<DiagramState> state_;
 };
 
 }  // namespace vorocl

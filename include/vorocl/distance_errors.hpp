@@ -2,10 +2,10 @@
 #pragma once
 
 #include <cstddef>
-#include <memory>
 
 #include "vorocl/diagram.hpp"
 #include "vorocl/export.h"
+#include "vorocl/own_state.hpp"
 #include "vorocl/report.hpp"
 
 namespace vorocl {
@@ -32,17 +32,12 @@ struct DistanceErrors {
 /// Threads, lifetime, ordering: as SimilarityResult.
 class VOROCL_API DistanceErrorsResult {
  public:
-  DistanceErrorsResult();
-  ~DistanceErrorsResult();
-  DistanceErrorsResult(DistanceErrorsResult&& other) noexcept;
-  DistanceErrorsResult& operator=(DistanceErrorsResult&& other) noexcept;
-
   /// Nothing but zeros while the result is empty. Waits. Throws BadPoint if the seeds had one.
   DistanceErrors read() const;
 
  private:
   friend struct Internal;
-  std::unique_ptr<DistanceErrorsState> state_;
+  OwnState<DistanceErrorsState> state_;
 };
 
 /// Judges a diagram by the exact one of the same seeds and metric (see exact_diagram()). A pixel that is as

@@ -4,12 +4,12 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
-#include <memory>
 
 #include "vorocl/device.hpp"
 #include "vorocl/export.h"
 #include "vorocl/grid.hpp"
 #include "vorocl/opencl.hpp"
+#include "vorocl/own_state.hpp"
 #include "vorocl/report.hpp"
 
 namespace vorocl {
@@ -132,10 +132,6 @@ class VOROCL_API DistanceTransform {
   /// 1 voxels), is tilted, or a size is not positive and finite or more than 1,000 times another one.
   explicit DistanceTransform(const Device& device, const Grid& grid, const PixelSize& size = {});
 
-  ~DistanceTransform();
-  DistanceTransform(DistanceTransform&& other) noexcept;
-  DistanceTransform& operator=(DistanceTransform&& other) noexcept;
-
   /// Transforms an image. Where all images are buffers it enqueues and returns. Else it waits: on a device
   /// that shares the host's memory kernels read and write there, without copies. Targets must not overlap
   /// each other or the image. Throws Error if no target is wanted, a target has a type that is not named
@@ -151,7 +147,7 @@ class VOROCL_API DistanceTransform {
 
  private:
   DistanceTransformState& state() const;
-  std::unique_ptr<DistanceTransformState> state_;
+  OwnState<DistanceTransformState> state_;
 };
 
 }  // namespace vorocl

@@ -5,12 +5,12 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <memory>
 #include <vector>
 
 #include "vorocl/export.h"
 #include "vorocl/grid.hpp"
 #include "vorocl/opencl.hpp"
+#include "vorocl/own_state.hpp"
 #include "vorocl/report.hpp"
 #include "vorocl/seeds.hpp"
 
@@ -103,11 +103,6 @@ struct ExactCellsCheck {
 /// measurement into it.
 class VOROCL_API ExactCellsResult {
  public:
-  ExactCellsResult();
-  ~ExactCellsResult();
-  ExactCellsResult(ExactCellsResult&& other) noexcept;
-  ExactCellsResult& operator=(ExactCellsResult&& other) noexcept;
-
   /// The cells, one per seed; 0 while the result is empty. Does not wait.
   std::size_t size() const;
 
@@ -146,7 +141,7 @@ class VOROCL_API ExactCellsResult {
   friend struct Internal;
   const cl::Buffer& settled(cl::Buffer ExactCellsState::*buffer) const;
   const cl::Buffer& listed(cl::Buffer ExactCellsState::*buffer) const;
-  std::unique_ptr<ExactCellsState> state_;
+  OwnState<ExactCellsState> state_;
 };
 
 /// Cuts the rectangle of the seeds' grid, or the box of a volume, into their Euclidean Voronoi cells, without

@@ -22,7 +22,7 @@ struct ExactOptions {
 /// in proportion to the pixels, within a factor of a few (docs/performance.md); where points lie on a curve
 /// or surface with many per pixel, in proportion to that number too (docs/true_positions.md,
 /// docs/volumes.md). 4 bytes of device memory per pixel, the labels, and 12 per seed besides its position,
-/// and up to 12 of an index (24 with Shape::group, and 2 per pixel of squares of 32); where seeds are dense
+/// and up to 20 of an index (24 with Shape::group, and 2 per pixel of squares of 32); where seeds are dense
 /// up to 3.3 (6.2) more per pixel in their place. Throws Error if seeds and diagram do not fit together or
 /// the device has too little memory.
 ///

@@ -2,12 +2,12 @@
 #pragma once
 
 #include <cstdint>
-#include <memory>
 #include <vector>
 
 #include "vorocl/diagram.hpp"
 #include "vorocl/export.h"
 #include "vorocl/opencl.hpp"
+#include "vorocl/own_state.hpp"
 #include "vorocl/report.hpp"
 #include "vorocl/seeds.hpp"
 
@@ -31,11 +31,6 @@ constexpr std::int32_t no_distance = 0x7fffffff;
 template <typename T>
 class VOROCL_API Field {
  public:
-  Field();
-  ~Field();
-  Field(Field&& other) noexcept;
-  Field& operator=(Field&& other) noexcept;
-
   const cl::Buffer& values() const;  ///< null while the field is empty
 
   /// Waits. Throws BadPoint if the frame of the seeds had one, and Error if a value does not fit.
@@ -46,7 +41,7 @@ class VOROCL_API Field {
 
  private:
   friend struct Internal;
-  std::unique_ptr<FieldState<T>> state_;
+  OwnState<FieldState<T>> state_;
 };
 
 extern template class Field<std::int32_t>;

@@ -3,7 +3,6 @@
 
 #include <cstdint>
 #include <initializer_list>
-#include <memory>
 #include <optional>
 #include <vector>
 
@@ -11,6 +10,7 @@
 #include "vorocl/export.h"
 #include "vorocl/grid.hpp"
 #include "vorocl/opencl.hpp"
+#include "vorocl/own_state.hpp"
 #include "vorocl/points.hpp"
 
 namespace vorocl {
@@ -111,10 +111,6 @@ class VOROCL_API Seeds {
   /// than a diagram can be.
   static Seeds random(const Device& device, const Grid& grid, std::size_t count, std::uint64_t rng_seed);
 
-  ~Seeds();
-  Seeds(Seeds&& other) noexcept;
-  Seeds& operator=(Seeds&& other) noexcept;
-
   /// The same seeds once more, to be moved on their own. Enqueues and returns.
   Seeds clone() const;
 
@@ -157,9 +153,9 @@ class VOROCL_API Seeds {
 
  private:
   friend struct Internal;
-  explicit Seeds(std::unique_ptr<SeedsState> state);
+  explicit Seeds(OwnState<SeedsState> state);
   SeedsState& state() const;
-  std::unique_ptr<SeedsState> state_;
+  OwnState<SeedsState> state_;
 };
 
 }  // namespace vorocl

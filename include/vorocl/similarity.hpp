@@ -3,12 +3,12 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <memory>
 #include <vector>
 
 #include "vorocl/diagram.hpp"
 #include "vorocl/export.h"
 #include "vorocl/opencl.hpp"
+#include "vorocl/own_state.hpp"
 #include "vorocl/report.hpp"
 
 namespace vorocl {
@@ -29,11 +29,6 @@ VOROCL_API double similarity(const std::vector<std::uint32_t>& a, const std::vec
 /// Ordering: all work goes to the device's in-order queue, in the order of the calls.
 class VOROCL_API SimilarityResult {
  public:
-  SimilarityResult();
-  ~SimilarityResult();
-  SimilarityResult(SimilarityResult&& other) noexcept;
-  SimilarityResult& operator=(SimilarityResult&& other) noexcept;
-
   /// One uint32: the pixels that differ. Null while the result is empty.
   const cl::Buffer& differences() const;
 
@@ -45,7 +40,7 @@ class VOROCL_API SimilarityResult {
 
  private:
   friend struct Internal;
-  std::unique_ptr<SimilarityState> state_;
+  OwnState<SimilarityState> state_;
 };
 
 /// The share of pixels with equal labels. One pass over the two label images. Enqueues and returns. Throws

@@ -12,6 +12,7 @@
 #include "vorocl/export.h"
 #include "vorocl/grid.hpp"
 #include "vorocl/opencl.hpp"
+#include "vorocl/own_state.hpp"
 #include "vorocl/points.hpp"
 #include "vorocl/seeds.hpp"
 
@@ -189,9 +190,6 @@ struct PlaneCellPair {
 class VOROCL_API PlaneCells {
  public:
   PlaneCells();
-  ~PlaneCells();
-  PlaneCells(PlaneCells&& other) noexcept;
-  PlaneCells& operator=(PlaneCells&& other) noexcept;
 
   /// The cells by id.
   std::uint64_t size() const;
@@ -210,7 +208,7 @@ class VOROCL_API PlaneCells {
 
  private:
   friend struct Internal;
-  std::unique_ptr<PlaneCellsState> state_;
+  OwnState<PlaneCellsState> state_;
 };
 
 struct TileOptions {

@@ -104,6 +104,9 @@ static inline uint blocks_in_balls(bounds8_t b, const balls_t* balls) {
 #ifndef MOST_BLOCKS
 #define MOST_BLOCKS 4096
 #endif
+#if MOST_BLOCKS % BLOCKS_AT_ONCE != 0
+#error "Bounds of a list are read in whole vectors"
+#endif
 typedef struct {
   float bounds[MOST_BLOCKS * BOUNDS_OF_BLOCK];
   uint from[MOST_BLOCKS], to[MOST_BLOCKS];

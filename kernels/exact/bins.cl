@@ -58,6 +58,11 @@ static inline void move_place(const places_of_bins_t* p, uint at, uint to) {
 #define FIRST_BOUND(block) \
   ((size_t)((block) / BLOCKS_AT_ONCE) * (BLOCKS_AT_ONCE * BOUNDS_OF_BLOCK) + (size_t)((block) % BLOCKS_AT_ONCE))
 #define UNITS_OF_BOUNDS (1.f / ONE)
+static inline float2 bounds_of(global const int* along, int count) {  // along an axis, of some places
+  const extent_t extent = extent_in_index(along, count);
+  const float2 ends = (float2)((float)extent.first, (float)extent.last) * UNITS_OF_BOUNDS;
+  return ends + fabs(ends) * (float2)(-0x1p-22f, 0x1p-22f);
+}
 
 // --- seeds at one place ---
 //

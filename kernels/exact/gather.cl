@@ -25,6 +25,7 @@ NOINLINE static source_t list_blocks(const scene_t* scene, box_t box, uint near,
   walk_t walk = walk_over_balls(scene, &limits, balls, source);
   const int begin = (source.end + BLOCKS_AT_ONCE - 1) / BLOCKS_AT_ONCE * BLOCKS_AT_ONCE;
   source_t list = {b, begin, begin};
+  global const int* const along[3] = {scene->x, scene->y, scene->z};
   uint from, to;
   int4 origin;
   while (next_range(scene, &walk, 0, &from, &to, &origin)) {
@@ -36,11 +37,14 @@ NOINLINE static source_t list_blocks(const scene_t* scene, box_t box, uint near,
       const int i = list.end++;
       b->from[i] = from, b->to[i] = next, b->x[i] = origin.x, b->y[i] = origin.y, b->z[i] = origin.z;
       global const float* own = scene->bounds + FIRST_BOUND(block);
+      const bool is_bound = own[0] > -INFINITY;  // or its bins have few places, and it is done here
       float* out = b->bounds + FIRST_BOUND(i);
 #pragma unroll
       for (int axis = 0; axis < AXES_OF_PLACES; ++axis, own += 2 * BLOCKS_AT_ONCE, out += 2 * BLOCKS_AT_ONCE) {
-        out[0] = own[0] - shift[axis] - margin[axis];
-        out[BLOCKS_AT_ONCE] = own[BLOCKS_AT_ONCE] - shift[axis] + margin[axis];
+        float2 ends = (float2)(own[0], own[BLOCKS_AT_ONCE]);
+        if (!is_bound) ends = bounds_of(along[axis] + from, (int)(next - from));
+        out[0] = ends.x - shift[axis] - margin[axis];
+        out[BLOCKS_AT_ONCE] = ends.y - shift[axis] + margin[axis];
       }
       if (IS_WEIGHTED) out[0] = own[0];
     }
@@ -62,7 +66,7 @@ static inline uint nearest_of_walk(const scene_t* scene, walk_t* walk, int4 cent
       const int8 wins = (n < least) & (EIGHT < (int)(to - at));
       least = select(least, n, wins), nearest = select(nearest, at + as_uint8(EIGHT), as_uint8(wins));
     }
-    if (walk->has_blocks) walk->balls.n = fmin(walk->balls.n, radius_of_ball(least_float(least)));
+    if (walk->has_balls) walk->balls.n = fmin(walk->balls.n, radius_of_ball(least_float(least)));
   }
   const float found = least_float(least);
   if (found == INFINITY) return NO_PLACE;
@@ -80,7 +84,7 @@ static inline bool is_far_by_weights(float4 place) {
 
 // A place near the centre of a box; NO_PLACE if there is no place at all. Where the bins of the box are empty, a
 // known place or a few places of each range around say how far the nearest one is at most. Places of the box with
-// long lags say so, too: a heavier one farther away may be nearer.
+// long lags say so, too: a heavier one farther away may be nearer. Of a list of blocks the nearest is looked up there.
 #define FEW_OF_RANGE 8
 #define ALL_OF_RANGE (UINT_MAX / 2)
 NOINLINE static uint find_near(const scene_t* scene, box_t box, const cuboid_t* limits, uint known, source_t source) {
@@ -98,7 +102,9 @@ NOINLINE static uint find_near(const scene_t* scene, box_t box, const cuboid_t* 
   }
   if (near == NO_PLACE) return near;
   walk_t walk = walk_over_balls(scene, limits, ball_around(centre, way_to(scene, near, centre)), source);
-  return nearest_of_walk(scene, &walk, centre, ALL_OF_RANGE);
+  // Where the centre is beyond the grid, rows may be cut to nothing at its end.
+  const uint nearer = nearest_of_walk(scene, &walk, centre, ALL_OF_RANGE);
+  return nearer == NO_PLACE ? near : nearer;
 }
 
 // A walk over all that may win in a box, which goes on where a list was full.

@@ -64,11 +64,9 @@ static inline void bound_blocks(const places_of_bins_t* p, uint begin, uint end,
     const bool is_bound = has_crowds && at + PLACES_OF_BLOCK <= end;
     global float* out = bounds + FIRST_BOUND(block);
     for (int i = 0; i < AXES_OF_PLACES; ++i, out += 2 * BLOCKS_AT_ONCE) {
-      out[0] = -INFINITY, out[BLOCKS_AT_ONCE] = INFINITY;
-      if (!is_bound) continue;
-      const extent_t extent = extent_in_index(along[i] + at, PLACES_OF_BLOCK);
-      const float from = (float)extent.first * UNITS_OF_BOUNDS, to = (float)extent.last * UNITS_OF_BOUNDS;
-      out[0] = from - fabs(from) * 0x1p-22f, out[BLOCKS_AT_ONCE] = to + fabs(to) * 0x1p-22f;
+      float2 ends = (float2)(-INFINITY, INFINITY);
+      if (is_bound) ends = bounds_of(along[i] + at, PLACES_OF_BLOCK);
+      out[0] = ends.x, out[BLOCKS_AT_ONCE] = ends.y;
     }
 #if IS_WEIGHTED
     const int lag = is_bound ? extent_in_index(p->lags + at, PLACES_OF_BLOCK).first : 0;

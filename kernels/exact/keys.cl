@@ -377,6 +377,7 @@ static inline int8 keys_at(const list_t* list, const keys_t* keys, int k, int x,
   return as_int8(absolute(vload8(0, list->x + k) - HALF - x * ONE) +
                  absolute(vload8(0, list->y + k) - HALF - y * ONE) - keys->of_first);
 #else
+  (void)list;
   uint8 own = vload8(0, keys->high + k) - vload8(0, keys->x + k) * (uint)x - vload8(0, keys->y + k) * (uint)y;
   if (IS_VOLUME) own -= vload8(0, keys->z + k) * (uint)z;
   return as_int8(own);

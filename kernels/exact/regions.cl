@@ -231,7 +231,7 @@ NOINLINE static void label_by_lists(const scene_t* scene, box_t outer, lists_t* 
     for (int j = 0; j < children_of(tile, BOX_X, BOX_Y, BOX_Z); ++j) {
       const box_t box = child_of(tile, j, BOX_X, BOX_Y, BOX_Z);
       if (!is_in_grid(scene, box)) continue;
-      // Where a crowd is in the box itself bins are small enough.
+      // Where the box has places itself bins are small enough.
       const bool is_listed = source.blocks && is_empty(scene, box);
       source_t of_box = is_listed ? list_blocks(scene, box, near, source, &lists->blocks) : the_index;
       const bool may_fit = of_box.end - of_box.begin < MOST_IN_LIST / PLACES_OF_BLOCK;

@@ -52,7 +52,7 @@ static inline span_t of_image(span_t s, int image, int size, int periodic) {
 typedef struct {
   span_t x, y, z;
   balls_t balls;
-  bool has_balls, has_blocks;  // whether rows, and blocks of long ranges, are held against the balls
+  bool has_balls, cuts_rows;  // whether there are balls, and whether rows are cut by them, as long ranges are
   uint from, to;               // of a long range, what is left
   source_t list;               // and of a list
   uint some;                   // those of the eight ranges before list.begin that the balls meet, as bits
@@ -75,7 +75,7 @@ static inline void enter_z(const scene_t* scene, walk_t* w) {
 static inline walk_t walk_over(const scene_t* scene, span_t x, span_t y, span_t z) {
   walk_t w;
   w.x = x, w.y = y, w.z = z;
-  w.has_balls = w.has_blocks = false;
+  w.has_balls = w.cuts_rows = false;
   w.from = w.to = 0;
   w.list.blocks = 0;
   w.image_x = 1, w.last_x = 0;
@@ -96,7 +96,7 @@ static inline corners_t outside(corners_t at, float from, float to) {
 // The pixels along x of the present row that the balls meet; false if there are none.
 static inline bool row_in_balls(const scene_t* scene, walk_t* w) {
   w->row = w->x;
-  if (!w->has_balls) return true;
+  if (!w->cuts_rows) return true;
   const int4 bits = scene->bins.bits;
   const int y = (w->row_y << bits.y) + w->image_y * scene->size.y;
   const int z = (w->row_z << bits.z) + w->image_z * scene->size.z;
@@ -177,7 +177,7 @@ static inline bool next_range(const scene_t* scene, walk_t* w, int4 centre, uint
       *to = scene->starts[first + (uint)(x.to >> bins->bits.x) + 1];
       if (*from == *to) continue;
       *origin = centre - (int4)(image, w->image_y, w->image_z, 0) * scene->size * (ONE * SPACINGS);
-      if (!w->has_blocks || *to - *from < LONG_RANGE) return true;
+      if (!w->has_balls || *to - *from < LONG_RANGE) return true;
       w->from = *from, w->to = *to;
       if (next_blocks(scene, w, from, to)) return true;
     }
@@ -211,7 +211,7 @@ static inline span_t span_of_balls(corners_t at, corners_t reach, int spacing, s
 static inline walk_t walk_over_balls(const scene_t* scene, const cuboid_t* limits, balls_t balls, source_t source) {
   if (source.blocks) {
     walk_t walk;
-    walk.balls = balls, walk.has_blocks = true, walk.list = source, walk.some = 0;
+    walk.balls = balls, walk.has_balls = true, walk.list = source, walk.some = 0;
     return walk;
   }
   const corners_t reach = radius_of(balls.n);
@@ -219,8 +219,8 @@ static inline walk_t walk_over_balls(const scene_t* scene, const cuboid_t* limit
                           span_of_balls(balls.y, reach, SPACING_Y, limits->y),
                           IS_VOLUME ? span_of_balls(balls.z, reach, SPACING_Z, limits->z) : span_of(0, 0));
   walk.balls = balls;
-  walk.has_blocks = true;
-  walk.has_balls = IS_VOLUME || ((walk.y.to - walk.y.from) >> scene->bins.bits.y) >= ROWS_OF_BALLS;
+  walk.has_balls = true;
+  walk.cuts_rows = IS_VOLUME || ((walk.y.to - walk.y.from) >> scene->bins.bits.y) >= ROWS_OF_BALLS;
   return walk;
 }
 

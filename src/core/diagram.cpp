@@ -153,26 +153,22 @@ Report Filling::commit(int waves, const cl::Event& first, const cl::Event& last,
 // --- Diagram ---
 
 Diagram::Diagram(const Device& device, const Window& window)
-    : state_(std::make_unique<DiagramState>(
-          device, window, allocate(device, bytes_of(PixelGrid(window)), "the label image"))) {
+    : state_(make_state<DiagramState>(device, window,
+                                      allocate(device, bytes_of(PixelGrid(window)), "the label image"))) {
   fill(device, labels(), no_label, state_->grid.pixels());
 }
 
 Diagram::Diagram(const Device& device, const Window& window, const cl::Buffer& labels) {
   check_foreign_buffer(device, labels, bytes_of(PixelGrid(window)), "the buffer of labels",
                        Access::read_and_write);
-  state_ = std::make_unique<DiagramState>(device, window, labels);
+  state_ = make_state<DiagramState>(device, window, labels);
 }
 
 Diagram::Diagram(const Device& device, const Window& window, std::uint32_t* labels) {
   if (labels == nullptr) throw Error("the host's memory for labels is null");
-  state_ = std::make_unique<DiagramState>(device, window, cl::Buffer());
+  state_ = make_state<DiagramState>(device, window, cl::Buffer());
   state_->put_labels_at(labels);
 }
-
-Diagram::~Diagram() = default;
-Diagram::Diagram(Diagram&& other) noexcept = default;
-Diagram& Diagram::operator=(Diagram&& other) noexcept = default;
 
 DiagramState& Diagram::state() const {
   if (!state_) throw Error("this diagram was moved from, and has no labels; use the one it was moved to");

@@ -59,13 +59,10 @@ Points Points::weighted(const double* weights) const {
   return points;
 }
 
-Seeds::Seeds(std::unique_ptr<SeedsState> state) : state_(std::move(state)) {}
-Seeds::~Seeds() = default;
-Seeds::Seeds(Seeds&& other) noexcept = default;
-Seeds& Seeds::operator=(Seeds&& other) noexcept = default;
+Seeds::Seeds(OwnState<SeedsState> state) : state_(std::move(state)) {}
 
 Seeds Internal::no_seeds(const Device& device, const Grid& grid) {
-  return Seeds(std::make_unique<SeedsState>(device, grid, SeedsOptions{}));
+  return Seeds(make_state<SeedsState>(device, grid, SeedsOptions{}));
 }
 
 SeedsState& Seeds::state() const {
@@ -75,7 +72,7 @@ SeedsState& Seeds::state() const {
 }
 
 Seeds::Seeds(const Device& device, const Grid& grid, const Points& points, const SeedsOptions& options)
-    : state_(std::make_unique<SeedsState>(device, grid, options)) {
+    : state_(make_state<SeedsState>(device, grid, options)) {
   state_->place(grid, points);
 }
 
@@ -84,7 +81,7 @@ Seeds::Seeds(const Device& device, const Grid& grid, std::initializer_list<Point
     : Seeds(device, grid, Points(points), options) {}
 
 Seeds::Seeds(const Device& device, const Grid& grid, const PointBuffer& points, const SeedsOptions& options)
-    : state_(std::make_unique<SeedsState>(device, grid, options)) {
+    : state_(make_state<SeedsState>(device, grid, options)) {
   state_->place(points);
 }
 
@@ -130,7 +127,7 @@ Seeds Seeds::random(const Device& device, const Grid& grid, std::size_t count, s
 }
 
 Seeds Seeds::clone() const {
-  auto copied = std::make_unique<SeedsState>(device(), grid(), state().options);
+  auto copied = make_state<SeedsState>(device(), grid(), state().options);
   copied->copy_from(state());
   return Seeds(std::move(copied));
 }

@@ -326,11 +326,6 @@ ExactPolyhedra ExactCellsState::outline() {
 
 // --- ExactCellsResult ---
 
-ExactCellsResult::ExactCellsResult() = default;
-ExactCellsResult::~ExactCellsResult() = default;
-ExactCellsResult::ExactCellsResult(ExactCellsResult&& other) noexcept = default;
-ExactCellsResult& ExactCellsResult::operator=(ExactCellsResult&& other) noexcept = default;
-
 std::size_t ExactCellsResult::size() const { return state_ && !state_->empty() ? state_->cells : 0; }
 
 const cl::Buffer& ExactCellsResult::areas() const { return settled(&ExactCellsState::areas); }

@@ -124,10 +124,7 @@ void check_squares(const DistanceTransformState& state) {
 }  // namespace
 
 DistanceTransform::DistanceTransform(const Device& device, const Grid& grid, const PixelSize& size)
-    : state_(std::make_unique<DistanceTransformState>(device, grid, spaced(grid, size))) {}
-DistanceTransform::~DistanceTransform() = default;
-DistanceTransform::DistanceTransform(DistanceTransform&& other) noexcept = default;
-DistanceTransform& DistanceTransform::operator=(DistanceTransform&& other) noexcept = default;
+    : state_(make_state<DistanceTransformState>(device, grid, spaced(grid, size))) {}
 
 DistanceTransformState& DistanceTransform::state() const {
   if (!state_) throw Error("this transform was moved from; use the one it was moved to");

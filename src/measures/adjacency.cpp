@@ -151,11 +151,6 @@ void AdjacencyState::list() {
 
 // --- AdjacencyResult ---
 
-AdjacencyResult::AdjacencyResult() = default;
-AdjacencyResult::~AdjacencyResult() = default;
-AdjacencyResult::AdjacencyResult(AdjacencyResult&& other) noexcept = default;
-AdjacencyResult& AdjacencyResult::operator=(AdjacencyResult&& other) noexcept = default;
-
 std::size_t AdjacencyResult::pairs() const {
   if (!state_ || state_->empty()) return 0;
   state_->list();

@@ -17,10 +17,6 @@ constexpr std::size_t sides = 6;  // of a box: left, top, front, right, bottom, 
 
 }  // namespace
 
-CellShapesResult::CellShapesResult() = default;
-CellShapesResult::~CellShapesResult() = default;
-CellShapesResult::CellShapesResult(CellShapesResult&& other) noexcept = default;
-CellShapesResult& CellShapesResult::operator=(CellShapesResult&& other) noexcept = default;
 std::size_t CellShapesResult::size() const { return state_ ? state_->size() : 0; }
 const cl::Buffer& CellShapesResult::boxes() const { return buffer_of(state_, &CellShapesState::boxes); }
 const cl::Buffer& CellShapesResult::largest_distances() const {

@@ -15,10 +15,6 @@ struct CellSumsState : Measured {
   cl::Buffer home, home_sums, periods;  // while the sums are made: see cells.cl
 };
 
-CellSumsResult::CellSumsResult() = default;
-CellSumsResult::~CellSumsResult() = default;
-CellSumsResult::CellSumsResult(CellSumsResult&& other) noexcept = default;
-CellSumsResult& CellSumsResult::operator=(CellSumsResult&& other) noexcept = default;
 std::size_t CellSumsResult::size() const { return state_ ? state_->size() : 0; }
 const cl::Buffer& CellSumsResult::area() const { return buffer_of(state_, &CellSumsState::area); }
 const cl::Buffer& CellSumsResult::sum_x() const { return buffer_of(state_, &CellSumsState::sum_x); }
@@ -97,11 +93,6 @@ struct CellStatisticsState : Measured {
   cl::Buffer partial;                // see cells.cl
   cl::Buffer area, home, home_area;  // of a diagram that was not summed before
 };
-
-CellStatisticsResult::CellStatisticsResult() = default;
-CellStatisticsResult::~CellStatisticsResult() = default;
-CellStatisticsResult::CellStatisticsResult(CellStatisticsResult&& other) noexcept = default;
-CellStatisticsResult& CellStatisticsResult::operator=(CellStatisticsResult&& other) noexcept = default;
 
 namespace {
 

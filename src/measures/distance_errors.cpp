@@ -60,11 +60,6 @@ struct DistanceErrorsState : Compared {
   cl::Buffer wrong, sums, greatest;  // of each work-group: see walk.cl
 };
 
-DistanceErrorsResult::DistanceErrorsResult() = default;
-DistanceErrorsResult::~DistanceErrorsResult() = default;
-DistanceErrorsResult::DistanceErrorsResult(DistanceErrorsResult&& other) noexcept = default;
-DistanceErrorsResult& DistanceErrorsResult::operator=(DistanceErrorsResult&& other) noexcept = default;
-
 Report distance_errors(const Diagram& diagram, const Diagram& exact, DistanceErrorsResult& result) {
   Measuring<DistanceErrorsState> measuring(result);
   DistanceErrorsState& found = measuring.state();

@@ -9,15 +9,6 @@
 namespace vorocl {
 
 template <typename T>
-Field<T>::Field() = default;
-template <typename T>
-Field<T>::~Field() = default;
-template <typename T>
-Field<T>::Field(Field&& other) noexcept = default;
-template <typename T>
-Field<T>& Field<T>::operator=(Field&& other) noexcept = default;
-
-template <typename T>
 const cl::Buffer& Field<T>::values() const {
   return buffer_of(state_, &FieldState<T>::values);
 }

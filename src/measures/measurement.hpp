@@ -114,7 +114,7 @@ class Measuring {
 
 /// A buffer of a result, null if it is empty.
 template <typename State>
-const cl::Buffer& buffer_of(const std::unique_ptr<State>& state, cl::Buffer State::*buffer) {
+const cl::Buffer& buffer_of(const OwnState<State>& state, cl::Buffer State::*buffer) {
   static const cl::Buffer none;
   return state && !state->empty() ? (*state).*buffer : none;
 }

@@ -12,10 +12,6 @@ struct SimilarityState : Compared {
   cl::Buffer differences;
 };
 
-SimilarityResult::SimilarityResult() = default;
-SimilarityResult::~SimilarityResult() = default;
-SimilarityResult::SimilarityResult(SimilarityResult&& other) noexcept = default;
-SimilarityResult& SimilarityResult::operator=(SimilarityResult&& other) noexcept = default;
 const cl::Buffer& SimilarityResult::differences() const {
   return buffer_of(state_, &SimilarityState::differences);
 }

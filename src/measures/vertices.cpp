@@ -60,11 +60,6 @@ struct VerticesState : Measured {
   int vector_width = 1;             // that it was built for
 };
 
-VerticesResult::VerticesResult() = default;
-VerticesResult::~VerticesResult() = default;
-VerticesResult::VerticesResult(VerticesResult&& other) noexcept = default;
-VerticesResult& VerticesResult::operator=(VerticesResult&& other) noexcept = default;
-
 Report vertices(const Diagram& diagram, VerticesResult& result) {
   Measuring<VerticesState> measuring(result);
   VerticesState& found = measuring.state();

@@ -14,6 +14,11 @@
 
 namespace vorocl {
 
+template <typename State, typename... Arguments>
+OwnState<State> make_state(Arguments&&... arguments) {
+  return {new State(std::forward<Arguments>(arguments)...), {[](State* state) { delete state; }}};
+}
+
 struct Internal {
   static DeviceState& state(const Device& device) { return *device.state_; }
 
@@ -37,7 +42,7 @@ struct Internal {
   /// What a result holds; made at its first use.
   template <typename Result>
   static auto& result(Result& result) {
-    if (!result.state_) result.state_ = std::make_unique<typename decltype(result.state_)::element_type>();
+    if (!result.state_) result.state_ = make_state<typename decltype(result.state_)::element_type>();
     return *result.state_;
   }
 

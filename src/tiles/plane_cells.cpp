@@ -242,10 +242,7 @@ void PlaneCellsState::meet(const Seam& seam, std::vector<std::uint32_t> rim) {
   rims_.erase(waiting);
 }
 
-PlaneCells::PlaneCells() : state_(std::make_unique<PlaneCellsState>()) {}
-PlaneCells::~PlaneCells() = default;
-PlaneCells::PlaneCells(PlaneCells&& other) noexcept = default;
-PlaneCells& PlaneCells::operator=(PlaneCells&& other) noexcept = default;
+PlaneCells::PlaneCells() : state_(make_state<PlaneCellsState>()) {}
 
 std::uint64_t PlaneCells::size() const { return state_ ? state_->ids : 0; }
 
@@ -271,7 +268,7 @@ PlaneCell PlaneCells::cell(std::uint64_t id) const {
 std::vector<char> PlaneCells::take() { return state_ ? state_->take() : std::vector<char>(); }
 
 void PlaneCells::add(const std::vector<char>& taken) {
-  if (!state_) state_ = std::make_unique<PlaneCellsState>();
+  if (!state_) state_ = make_state<PlaneCellsState>();
   state_->add(taken);
 }
 

@@ -299,6 +299,8 @@ BOOST_AUTO_TEST_CASE(bad_options_are_usage_errors) {
   refuses(folder, djfa + "--compare-with jfa --similarity s.txt", usage, {"s.txt", ".csv"});
   refuses(folder, djfa + "--every 0", usage, {"--every"});
   refuses(folder, djfa + "--fps 25", usage, {"-o"});
+  refuses(folder, djfa + "--fps 25 -o p%d.png", usage, {"--fps is for a film", ".mp4"});
+  refuses(folder, djfa + "--every 2", usage, {"--every", "--cells"});
   refuses(folder, djfa + "-o a.mp4 --fps 0", usage, {"--fps"});
   refuses(folder, djfa + "-o a.mp4 --fps nan", usage, {"--fps"});
   refuses(folder, djfa + "--bounds 0,0,1,1", usage, {"--bounds", "--trajectory"});

@@ -100,6 +100,25 @@ BOOST_AUTO_TEST_CASE(far_seeds) {
 }
 
 // Windows that are a part of the period, cross its end, are as long as it from any pixel on, or longer.
+// The last boxes stick out of such windows, and a seed beyond them owns pixels there.
+BOOST_AUTO_TEST_CASE(boxes_beyond_the_window_find_seeds_beyond_it) {
+  std::mt19937_64 rng(8);
+  const auto below = [&](std::int64_t end) {
+    return static_cast<std::int64_t>(rng() % static_cast<std::uint64_t>(end));
+  };
+  for (int number = 0; number < (long_tests ? 400 : 40); ++number) {
+    const Grid plane(256, 512);
+    const Window window(plane, 0, 0, number == 0 ? 65 : 60 + below(30), 512);
+    std::vector<Pixel> seeds = random_pixels_between(
+        {0, 450}, {63, 511}, number == 0 ? 520 : 1 + static_cast<std::size_t>(below(600)), rng);
+    seeds.push_back(number == 0 ? Pixel{96, 164} : Pixel{window.width() + below(100), below(400)});
+    for (const Metric metric : both_metrics) {
+      for (const Engine& engine : engines_of(metric))
+        check_against_brute_force(window, seeds, engine, metric);
+    }
+  }
+}
+
 BOOST_AUTO_TEST_CASE(windows_of_periodic_grids) {
   std::mt19937_64 rng(7);
   const unsigned cases = long_tests ? 6000 : 600;

@@ -298,7 +298,7 @@ void add_relax(CommandLine& line) {
   command.set_work([command, options] {
     if (options->exact && options->seeds.snap == Snap::to_pixels)
       throw UsageError("--exact moves seeds to any place, and --snap keeps them at pixels");
-    if (options->pictures.picture_path.empty()) refuse_picture_options(command, "-o");
+    check_film_options(command, options->pictures);
     options->seeds.value_column = options->pictures.picture.color.column;
     options->seeds.keeps_inside = "relax cannot take";
     options->seeds.of_pixels = Snap::none;

@@ -1,5 +1,6 @@
 // vorocl simulate: the diagrams of moving seeds, frame by frame, as a film, pictures, labels or times alone.
 
+#include <algorithm>
 #include <cmath>
 #include <memory>
 #include <optional>
@@ -267,7 +268,13 @@ void add_simulate(CommandLine& line) {
   add_file_option(command, options->polygons, true).needs(exact);
   command.set_work([command, options] {
     if (options->exact) return run_exact(command, *options);
-    if (options->output.picture_path.empty()) refuse_picture_options(command, "-o");
+    check_film_options(command, options->output);
+    const std::vector<FileRequest>& files = options->output.files;
+    const bool writes =
+        !options->output.picture_path.empty() ||
+        std::any_of(files.begin(), files.end(), [](const auto& file) { return !file.path.empty(); });
+    if (command.has("--every") && !writes)
+      throw UsageError("--every is for -o and for files of each frame, such as --cells: none is asked for");
     check_method_options(command, {options->method}, options->method_options);
     options->seeds.is_volume() ? prepare_volumes(command, *options) : prepare_planes(*options);
     for (FileRequest& request : options->output.files)

@@ -128,6 +128,8 @@ void add_cell_columns_option(Command& command, FileRequest& cells);
 /// Adds -o, with a help text and the name of its value, --fps and how pictures are drawn.
 void add_film_options(Command& command, FrameWriterOptions& options, const std::string& value_name,
                       const std::string& about);
+/// Throws UsageError for options of pictures without one, and for --fps without a film.
+void check_film_options(const Command& command, const FrameWriterOptions& options);
 
 /// Adds all that, the numbered files, --similarity, --statistics and --every.
 void add_frame_writer_options(Command& command, FrameWriterOptions& options);

@@ -1,6 +1,8 @@
 #include <algorithm>
 
 #include "app/options/option_groups.hpp"
+#include "formats/files.hpp"
+#include "formats/images/film.hpp"
 
 namespace vorocl::command {
 
@@ -44,6 +46,12 @@ void add_film_options(Command& command, FrameWriterOptions& options, const std::
       .needs(picture);
   add_picture_options(command, options.picture);
   command.begin_section(files_to_write);
+}
+
+void check_film_options(const Command& command, const FrameWriterOptions& options) {
+  if (options.picture_path.empty()) refuse_picture_options(command, "-o");
+  if (command.has("--fps") && extension_of(options.picture_path) != film_extension)
+    throw UsageError(std::string("--fps is for a film, such as -o a") + film_extension);
 }
 
 void add_frame_writer_options(Command& command, FrameWriterOptions& options) {
