@@ -39,6 +39,6 @@
 #define BEHIND_PLACES 16       // values behind each list of the index, which is read in whole vectors
 #define PLACES_OF_BLOCK 16     // of which the bounds are known, on CPUs
 #define BLOCKS_AT_ONCE 8       // whose bounds stand together
-#define MOST_BOUNDS (7 * BLOCKS_AT_ONCE)  // of these: both ends along each axis, and the least lag
+#define MOST_BOUNDS 7          // of a block: both ends along each axis, and the least lag
 
 #endif

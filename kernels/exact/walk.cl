@@ -137,7 +137,8 @@ NOINLINE static bool next_blocks(const scene_t* scene, walk_t* w, uint* from, ui
   balls.z -= (float)(w->image_z * scene->size.z * SPACING_Z);
   while (w->from < w->to) {
     const uint block = w->from / PLACES_OF_BLOCK, lane = block % BLOCKS_AT_ONCE, eight = block - lane;
-    const uint meets = blocks_in_balls(bounds_in_index(scene->bounds + FIRST_BOUND(eight)), &balls) >> lane << lane;
+    const uint there = (2u << min((w->to - 1) / PLACES_OF_BLOCK - eight, BLOCKS_AT_ONCE - 1u)) - (1u << lane);
+    const uint meets = blocks_in_balls(bounds_in_index(scene->bounds + FIRST_BOUND(eight)), &balls) & there;
     const uint first = lowest_bit(meets | 1u << BLOCKS_AT_ONCE), end = first + lowest_bit(~(meets >> first));
     *from = max(w->from, (eight + first) * PLACES_OF_BLOCK);
     *to = w->from = min(w->to, (eight + end) * PLACES_OF_BLOCK);

@@ -182,8 +182,8 @@ Report exact_diagram_by_places(Filling& filling, DiagramState& state) {
   state.reserve(counts, chunks * BUCKETS * word);
   state.reserve(ends, BUCKETS * word);
   state.reserve(sorted, room * sizeof(cl_int4));
-  constexpr std::size_t places_at_once = PLACES_OF_BLOCK * BLOCKS_AT_ONCE;
-  state.reserve(bounds, (room / places_at_once + 1) * MOST_BOUNDS * sizeof(float));
+  constexpr std::size_t at_once = BLOCKS_AT_ONCE, places_at_once = at_once * PLACES_OF_BLOCK;
+  state.reserve(bounds, (room / places_at_once + 1) * at_once * MOST_BOUNDS * sizeof(float));
   cl_uint shift = 0;
   while ((rows - 1) >> shift >= BUCKETS) ++shift;
   // Work-items that do much each: small groups spread them over the compute units.
