@@ -116,5 +116,6 @@ typedef struct {
   blocks_t* blocks;  // or null: all that is in the index
   int begin, end;
 } source_t;
+#define THE_INDEX ((source_t){0, 0, 0})
 
 #endif

@@ -187,10 +187,9 @@ NOINLINE static uint search_pixel(const scene_t* scene, int x, int y, int z, uin
   const box_t box = box_at(x, y, z, 1, 1, 1);
   const cuboid_t limits = limits_around(scene, box);
   const int4 centre = centre_of(box);
-  const source_t the_index = {0, 0, 0};
-  const uint near = known != NO_PLACE ? known : find_near(scene, box, &limits, NO_PLACE, the_index);
+  const uint near = known != NO_PLACE ? known : find_near(scene, box, &limits, NO_PLACE, THE_INDEX);
   if (near == NO_PLACE) return NO_LABEL;
-  walk_t walk = walk_over_balls(scene, &limits, balls_around(box, way_to(scene, near, centre)), the_index);
+  walk_t walk = walk_over_balls(scene, &limits, balls_around(box, way_to(scene, near, centre)), THE_INDEX);
   winner_t best = {LONG_MAX, NO_PLACE};
   uint from, to;
   int4 origin;

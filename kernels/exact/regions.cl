@@ -220,24 +220,23 @@ static inline around_t around(const scene_t* scene, box_t b, const bool wants_la
 static inline bool is_empty(const scene_t* scene, box_t b) { return around(scene, b, false).places == 0; }
 
 NOINLINE static void label_by_lists(const scene_t* scene, box_t outer, lists_t* lists) {
-  const source_t the_index = {0, 0, 0};
   for (int i = 0; i < children_of(outer, TILE, TILE, TILE_Z); ++i) {
     const box_t tile = child_of(outer, i, TILE, TILE, TILE_Z);
     if (!is_in_grid(scene, tile)) continue;
     uint near = NO_PLACE;
-    source_t source = the_index;
+    source_t source = THE_INDEX;
     const bool has_few = around(scene, tile, false).places < FEW_OF_TILE;
-    if (has_few && label_alone(scene, tile, A_TILE, &near, the_index, lists)) continue;
+    if (has_few && label_alone(scene, tile, A_TILE, &near, THE_INDEX, lists)) continue;
     for (int j = 0; j < children_of(tile, BOX_X, BOX_Y, BOX_Z); ++j) {
       const box_t box = child_of(tile, j, BOX_X, BOX_Y, BOX_Z);
       if (!is_in_grid(scene, box)) continue;
       // Where the box has places itself bins are small enough.
       const bool is_listed = source.blocks && is_empty(scene, box);
-      source_t of_box = is_listed ? list_blocks(scene, box, near, source, &lists->blocks) : the_index;
+      source_t of_box = is_listed ? list_blocks(scene, box, near, source, &lists->blocks) : THE_INDEX;
       const bool may_fit = of_box.end - of_box.begin < MOST_IN_LIST / PLACES_OF_BLOCK;
       if (may_fit && label_alone(scene, box, A_BOX, &near, of_box, lists)) continue;
       if (!source.blocks && is_empty(scene, box)) {
-        source = list_blocks(scene, tile, near, the_index, &lists->blocks);
+        source = list_blocks(scene, tile, near, THE_INDEX, &lists->blocks);
         of_box = list_blocks(scene, box, near, source, &lists->blocks);
       }
       for (int k = 0; k < children_of(box, PART_X, PART_Y, PART_Z); ++k) {
@@ -280,10 +279,9 @@ static inline bool label_if_dense(const scene_t* scene, box_t b, stamps_t* stamp
 // however many these are; false elsewhere, and if the list overflows.
 static inline bool label_if_heavy(const scene_t* scene, box_t own, lists_t* lists) {
   const cuboid_t limits = limits_around(scene, own);
-  const source_t the_index = {0, 0, 0};
-  uint near = find_near(scene, own, &limits, NO_PLACE, the_index);
+  uint near = find_near(scene, own, &limits, NO_PLACE, THE_INDEX);
   return near != NO_PLACE && is_far_by_weights(way_to(scene, near, centre_of(own))) &&
-         label_alone(scene, own, SIDE == REGION ? A_REGION : A_TILE, &near, the_index, lists);
+         label_alone(scene, own, SIDE == REGION ? A_REGION : A_TILE, &near, THE_INDEX, lists);
 }
 
 typedef union {
@@ -313,9 +311,8 @@ kernel void label_regions(global const uint* restrict starts, global const int* 
   const bool has_few = (ulong)there.places * (REGION * REGION * REGION_Z) < (ulong)FEW_OF_REGION * there.pixels;
   if (has_few && (IS_VOLUME || (region.x + REGION <= size.x && region.y + REGION <= size.y))) {
     const bool is_first = own.x == region.x && own.y == region.y;
-    const source_t the_index = {0, 0, 0};
     uint near = NO_PLACE;
-    if (is_first && !label_alone(&scene, region, A_REGION, &near, the_index, &rooms.lists)) {
+    if (is_first && !label_alone(&scene, region, A_REGION, &near, THE_INDEX, &rooms.lists)) {
       label_by_lists(&scene, region, &rooms.lists);
     }
     return;

@@ -52,10 +52,10 @@ static inline span_t of_image(span_t s, int image, int size, int periodic) {
 typedef struct {
   span_t x, y, z;
   balls_t balls;
-  bool has_balls, cuts_rows;  // whether there are balls, and whether rows are cut by them, as long ranges are
-  uint from, to;               // of a long range, what is left
-  source_t list;               // and of a list
-  uint some;                   // those of the eight ranges before list.begin that the balls meet, as bits
+  bool has_balls, cuts_rows;  // balls leave out blocks of long ranges, and may cut rows of bins
+  uint from, to;              // of a long range, what is left
+  source_t list;              // and of a list
+  uint some;                  // those of the eight ranges before list.begin that the balls meet, as bits
   span_t row;                                             // along x, of the present row
   int image_x, image_y, image_z, last_x, last_y, last_z;  // images
   int row_y, row_z, end_y, end_z;                         // bins

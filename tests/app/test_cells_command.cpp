@@ -43,6 +43,7 @@ json checked(const TemporaryFolder& folder, const std::string& arguments, const 
     }
     BOOST_TEST(result.at("cells") == seeds.size());
     BOOST_TEST(result.at("empty_cells") == empty);
+    BOOST_TEST((result.at("seeds") == seeds.size() && result.at("unlabelled_pixels") == 0));
     BOOST_TEST(result.at("mean_area").get<double>() == mean, boost::test_tools::tolerance(1e-12));
     BOOST_TEST(
         result.at("area_deviation").get<double>() == std::sqrt(squares / static_cast<double>(seeds.size())),

@@ -496,6 +496,7 @@ BOOST_AUTO_TEST_CASE(frames_share_what_does_not_repeat) {
       (refused.exit_code == failure && content_of(folder / "c.csv").find("\n1,") == std::string::npos));
   BOOST_TEST(refused.error.find("frame 1 is measured in other units than the frames before") !=
              std::string::npos);
+  BOOST_TEST(refused.error.find("--units px where the spacing stays the same") != std::string::npos);
   const std::string first_line =
       content_of(folder / "c1.csv").substr(0, content_of(folder / "c1.csv").find('\n'));
   BOOST_TEST(first_line.find("largest_distance_px") != std::string::npos);

@@ -99,7 +99,6 @@ BOOST_AUTO_TEST_CASE(far_seeds) {
   }
 }
 
-// Windows that are a part of the period, cross its end, are as long as it from any pixel on, or longer.
 // The last boxes stick out of such windows, and a seed beyond them owns pixels there.
 BOOST_AUTO_TEST_CASE(boxes_beyond_the_window_find_seeds_beyond_it) {
   std::mt19937_64 rng(8);
@@ -119,6 +118,7 @@ BOOST_AUTO_TEST_CASE(boxes_beyond_the_window_find_seeds_beyond_it) {
   }
 }
 
+// Windows that are a part of the period, cross its end, are as long as it from any pixel on, or longer.
 BOOST_AUTO_TEST_CASE(windows_of_periodic_grids) {
   std::mt19937_64 rng(7);
   const unsigned cases = long_tests ? 6000 : 600;

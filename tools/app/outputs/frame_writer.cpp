@@ -149,12 +149,13 @@ class FrameFiles {
       *table_ << header;
     }
     if (header == header_ && names == units_) return;
-    const bool px_may_do =
-        units.are_of_data() && !units.is_of_volume();  // a volume's spacing changes as well
+    const char* const px = !units.are_of_data()   ? ""
+                           : units.is_of_volume() ? ", or with --units px where the spacing stays the same"
+                                                  : ", or with --units px";
     throw Error(fmt::format(
         "frame {} is measured in other units than the frames before, because its box has "
         "another shape, and {} is one table; begin again with one per frame, such as {}/%05d.csv{}",
-        frame, request_.path, request_.kind.option.substr(2), px_may_do ? ", or with --units px" : ""));
+        frame, request_.path, request_.kind.option.substr(2), px));
   }
   void list(int frame, std::int64_t time) {
     if (collection_) listed_.push_back({time, fs::path(files_->path(frame)).filename().string()});
