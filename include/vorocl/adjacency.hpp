@@ -62,7 +62,8 @@ class VOROCL_API AdjacencyResult {
 /// Finds the pairs of cells that share a pixel edge, and the length of their common border. Pixels without a
 /// label, or with that of an absent seed, belong to no cell, and the window's edge is no border. Where the
 /// first row of a tilted grid follows the last one, pixels lie between pixels: one there is taken to share an
-/// edge with the one that it has more in common with. In a volume the same is said of voxels and their faces.
+/// edge with the one that it has more in common with. In a volume the same is said of voxels and their faces,
+/// and of the first slice, too.
 ///
 /// On an exact Euclidean diagram these are the edges of the Delaunay triangulation. Cells that touch along
 /// less than a few pixels may be missing. Cost: a walk along the cells' borders, which inserts each border

@@ -35,9 +35,9 @@ struct ExactOptions {
 /// lie outside it, each seed and image that may own a pixel costs a place in the list.
 ///
 /// In a tilted grid (Grid::tilted()) all seeds are taken as points, snapped ones at the centres of their
-/// pixels, and the host places their images whenever they have moved. In a flat box it looks at more of them:
-/// as many as rows of images may reach the window. Throws Error if such a grid has a side of more than
-/// 131,072 pixels.
+/// pixels. Where the window is a part of it the host places their images whenever they have moved, and in a
+/// flat box looks at as many of them as rows of images may reach the window; such a window's grid may have
+/// sides of 131,072 pixels, else this throws Error.
 ///
 /// By great circles (Metric::great_circle) the grid's x are longitudes and its y latitudes, both in degrees.
 /// It may show a part of the globe, or go round it: as a periodic axis of 360 degrees, so that cells touch

@@ -184,12 +184,12 @@ class VOROCL_API Grid {
   /// taken; those that differ by whole periods of x are the same, and that of 0 is none. Throws Error unless
   /// it is finite, and unless x and y are periodic if there is one.
   ///
-  /// Exact diagrams, their measures and exact cells know tilted grids. Methods that flood, motions at random,
-  /// relaxation and tiles throw Error.
-  ///
   /// The box of a volume, a parallelepiped, has the edges (width, 0, 0), (tilt, height, 0) and (xz, yz,
   /// depth), as LAMMPS's has. Its tilts stay as they are, and each asks that the two axes in its name are
-  /// periodic. Only exact cells know such boxes; diagrams of them throw Error.
+  /// periodic.
+  ///
+  /// Exact diagrams, their measures and exact cells know tilted grids. Methods that flood, motions at random,
+  /// relaxation, masks and tiles throw Error.
   Grid tilted(double tilt, double xz = 0, double yz = 0) const;
 
   const Axis& x() const { return x_; }
@@ -214,9 +214,15 @@ class VOROCL_API Grid {
   bool is_tilted() const { return tilt_ != 0 || tilt_xz_ != 0 || tilt_yz_ != 0; }
   bool is_tilted_plane() const { return is_tilted() && !is_volume(); }
 
-  /// The tilt as diagrams have it, in 1/4096 of a pixel: so far along x lies what repeats, height() rows
-  /// further down. Rounded once, so that images are sums of what is here and of whole periods.
-  std::int64_t shift() const;
+  /// The tilts as diagrams have them, in 1/4096 of a pixel.
+  struct Shifts {
+    std::int64_t xy = 0;          ///< so far along x lies what repeats, height() rows further down
+    std::int64_t xz = 0, yz = 0;  ///< so far along x and y lies what repeats, depth() slices further on
+  };
+
+  /// Brought to at most half a period each, which is the same box. Rounded once, so that images are sums of
+  /// what is here and of whole periods.
+  Shifts shifts() const;
 
   /// A point as it repeats in the periods along y and z, which the axes then take: the point itself but in a
   /// tilted grid, where it is moved by the tilts for each period that it lies beyond.

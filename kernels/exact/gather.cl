@@ -5,17 +5,28 @@
 
 #include "exact/walk.cl"
 
-// From a centre to the nearest image of a place; w: its lag, in units squared.
-static inline float to_nearest_image(int way, int size, int spacing, int periodic) {
-  return (float)shorter_way(way, size * ONE * spacing, periodic);
+// From a centre to the nearest image of a place. In a tilted grid to one that is near: the nearest one along z, of such
+// along y, and of such along x.
+static inline int4 to_near_image(const scene_t* scene, uint at, int4 centre) {
+  const int4 period = scene->size * (ONE * SPACINGS);
+  int x = scene->x[at] - centre.x, y = scene->y[at] - centre.y;
+  const int z = IS_VOLUME ? scene->z[at] - centre.z : 0;
+  const int near_z = IS_VOLUME ? shorter_way(z, period.z, IS_PERIODIC(scene, z)) : 0;
+#if IS_TILTED
+  const int turns_z = (near_z > z) - (near_z < z);
+  y += turns_z * TILT_YZ(scene) * SPACING_Y, x += turns_z * TILT_XZ(scene) * SPACING_X;
+#endif
+  const int near_y = shorter_way(y, period.y, IS_PERIODIC(scene, y));
+#if IS_TILTED
+  x += ((near_y > y) - (near_y < y)) * TILT_XY(scene) * SPACING_X;
+  x = shorter_way(x, period.x, IS_PERIODIC(scene, x));
+#endif
+  return (int4)(shorter_way(x, period.x, IS_PERIODIC(scene, x)), near_y, near_z, 0);
 }
+// w: its lag, in units squared.
 static inline float4 way_to(const scene_t* scene, uint at, int4 centre) {
-  const float x = to_nearest_image(scene->x[at] - centre.x, scene->size.x, SPACING_X, IS_PERIODIC(scene, x));
-  const float y = to_nearest_image(scene->y[at] - centre.y, scene->size.y, SPACING_Y, IS_PERIODIC(scene, y));
-  const float z =
-      IS_VOLUME ? to_nearest_image(scene->z[at] - centre.z, scene->size.z, SPACING_Z, IS_PERIODIC(scene, z))
-                : 0;
-  return (float4)(x, y, z, IS_WEIGHTED ? (float)scene->lags[at] * LAG_UNIT : 0);
+  const float4 way = convert_float4(to_near_image(scene, at, centre));
+  return (float4)(way.xyz, IS_WEIGHTED ? (float)scene->lags[at] * LAG_UNIT : 0);
 }
 
 // Lists the blocks of a source that may win in a box, behind the source; the source itself if there is no room.
@@ -216,16 +227,14 @@ NOINLINE static uint nearest_at(const scene_t* scene, box_t b, const list_t* lis
 
 // Whether a place is nearer to a pixel than another one.
 static inline long distance_to(const scene_t* scene, int4 centre, uint at) {
-  const long x = shorter_way(scene->x[at] - centre.x, scene->size.x * ONE * SPACING_X, IS_PERIODIC(scene, x));
-  const long y = shorter_way(scene->y[at] - centre.y, scene->size.y * ONE * SPACING_Y, IS_PERIODIC(scene, y));
-#if IS_MANHATTAN
-  return (x < 0 ? -x : x) + (y < 0 ? -y : y);
-#else
-  const long z =
-      IS_VOLUME ? shorter_way(scene->z[at] - centre.z, scene->size.z * ONE * SPACING_Z, IS_PERIODIC(scene, z))
-                : 0;
-  return x * x + y * y + z * z + (IS_WEIGHTED ? (long)scene->lags[at] * LAG_UNIT : 0);
+  int4 way = to_near_image(scene, at, centre);
+#if IS_TILTED
+  const int4 sides = scene->size * (int4)(IS_PERIODIC(scene, x), IS_PERIODIC(scene, y), IS_PERIODIC(scene, z), 0);
+  const lattice_t lattice = lattice_of(sides.x, sides.y, sides.z, scene->tilts, ONE);
+  way = shortest_way_round(&lattice, way.x, way.y, way.z);
 #endif
+  const long distance = ALONG((long)way.x) + ALONG((long)way.y) + ALONG((long)way.z);
+  return distance + (IS_WEIGHTED ? (long)scene->lags[at] * LAG_UNIT : 0);
 }
 static inline bool is_nearer(const scene_t* scene, int x, int y, int z, uint at, uint than) {
   const int4 centre = centre_of(box_at(x, y, z, 1, 1, 1));

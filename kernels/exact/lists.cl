@@ -44,6 +44,7 @@ typedef struct {
   bins_t bins;
   int4 size;      // the period along periodic axes
   int4 periodic;  // along which axes the grid is
+  int4 tilts;     // core/lattice.cl
   global const uint* starts;
   global const int *x, *y, *z;
   global const uint* ids;

@@ -13,6 +13,7 @@
 #ifndef VOROCL_EXACT_PLACE
 #define VOROCL_EXACT_PLACE
 
+#include "core/lattice.cl"
 #include "core/metric.cl"
 #include "core/periods.cl"
 #include "core/position.cl"

@@ -295,13 +295,14 @@ kernel void label_regions(global const uint* restrict starts, global const int* 
                           global const int* restrict ys, global const int* restrict zs,
                           global const uint* restrict ids, global const int* restrict lags,
                           global const float* restrict bounds, global const int2* restrict order,
-                          int has_images, int4 bits, int4 size, int4 first, int4 last, global uint* restrict labels) {
+                          int has_images, int4 bits, int4 size, int4 tilts, int4 first, int4 last,
+                          global uint* restrict labels) {
   const int item = (int)get_global_id(0), columns = (size.x - 1) / SIDE + 1, rows = (size.y - 1) / SIDE + 1;
   const box_t own = box_at(item % columns * SIDE, item / columns % rows * SIDE, item / columns / rows * SIDE,
                            SIDE, SIDE, IS_VOLUME ? SIDE : 1);
   const bins_t bins = bins_of(bits, size);
   global const int* const of_places = IS_WEIGHTED ? lags + bins.rows * bins.slices : lags;
-  const scene_t scene = {bins, size, AXES_OF(size), starts, xs, ys, zs, ids, of_places,
+  const scene_t scene = {bins, size, AXES_OF(size), tilts, starts, xs, ys, zs, ids, of_places,
                          lags, bounds, has_images ? order : 0, first, last, labels};
   if (!is_in_grid(&scene, own)) return;
   const box_t region =

@@ -26,24 +26,43 @@ static inline bool holds(span_t outer, span_t inner) {
 static inline span_t with_bins_around(span_t s, int rings, int bits) {
   return span_of(((s.from >> bits) - rings) * (1 << bits), ((s.to >> bits) + rings + 1) * (1 << bits) - 1);
 }
-// What a box can need: the axis, or along a periodic one all that is at most half a period away.
-static inline span_t limits_of(int from, int to, int size, int periodic) {
-  return periodic ? span_of(from - size / 2 - 1, to + size / 2 + 1) : span_of(0, size - 1);
+// What a box can need: the axis, or along a periodic one all that is at most half a period away, in a tilted grid all
+// that the nearest image of a place can be away.
+static inline span_t limits_of(int from, int to, int size, int periodic, int farthest) {
+  const int reach = (IS_TILTED ? farthest : size / 2) + 1;
+  return periodic ? span_of(from - reach, to + reach) : span_of(0, size - 1);
 }
 static inline cuboid_t limits_around(const scene_t* scene, box_t b) {
+  const int farthest = scene->tilts.w;
   cuboid_t c;
-  c.x = limits_of(b.x, b.x + b.sx - 1, scene->size.x, IS_PERIODIC(scene, x));
-  c.y = limits_of(b.y, b.y + b.sy - 1, scene->size.y, IS_PERIODIC(scene, y));
-  c.z = limits_of(b.z, b.z + b.sz - 1, scene->size.z, IS_PERIODIC(scene, z));
+  c.x = limits_of(b.x, b.x + b.sx - 1, scene->size.x, IS_PERIODIC(scene, x), farthest);
+  c.y = limits_of(b.y, b.y + b.sy - 1, scene->size.y, IS_PERIODIC(scene, y), farthest);
+  c.z = limits_of(b.z, b.z + b.sz - 1, scene->size.z, IS_PERIODIC(scene, z), farthest);
   return c;
 }
-// No pixel is more than a period in front of the grid.
+// at / size, rounded down.
 static inline int image_at(int at, int size, int periodic) {
-  return periodic ? (int)((uint)(at + size) / (uint)size) - 1 : 0;
+  const int is_before = at >> 31;
+  return periodic ? (int)((uint)(at ^ is_before) / (uint)size) ^ is_before : 0;
 }
 static inline span_t of_image(span_t s, int image, int size, int periodic) {
   return periodic ? span_of(max(s.from - image * size, 0), min(s.to - image * size, size - 1)) : s;
 }
+
+// IMAGES. One lies `image` periods away, and in a tilted grid so many units further along x and y.
+static inline int tilt_of_slice(const scene_t* scene, int image_z) { return IS_TILTED ? image_z * TILT_YZ(scene) : 0; }
+static inline int tilt_of_row(const scene_t* scene, int image_y, int image_z) {
+  return IS_TILTED ? image_z * TILT_XZ(scene) + image_y * TILT_XY(scene) : 0;
+}
+static inline int4 way_to_image(const scene_t* scene, int image_x, int image_y, int image_z) {
+  const int4 tilts = (int4)(tilt_of_row(scene, image_y, image_z), tilt_of_slice(scene, image_z), 0, 0);
+  return ((int4)(image_x, image_y, image_z, 0) * scene->size * ONE + tilts) * SPACINGS;
+}
+// The whole pixels that hold a span which is moved by so many units, or back by them.
+static inline span_t moved_on(span_t s, int units) {
+  return span_of(s.from + (units >> FRACTION_BITS), s.to + ((units + ONE - 1) >> FRACTION_BITS));
+}
+static inline span_t moved_back(span_t s, int units) { return IS_TILTED ? moved_on(s, -units) : s; }
 
 #define ROWS_OF_BALLS 6
 
@@ -62,9 +81,16 @@ typedef struct {
 } walk_t;
 
 static inline void enter_y(const scene_t* scene, walk_t* w) {
-  const span_t y = of_image(w->y, w->image_y, scene->size.y, IS_PERIODIC(scene, y));
+  const span_t own = moved_back(w->y, tilt_of_slice(scene, w->image_z));
+  const span_t y = of_image(own, w->image_y, scene->size.y, IS_PERIODIC(scene, y));
   w->row_y = (y.from >> scene->bins.bits.y) - 1;
   w->end_y = y.to >> scene->bins.bits.y;
+}
+static inline void enter_slice(const scene_t* scene, walk_t* w) {
+  const span_t own = moved_back(w->y, tilt_of_slice(scene, w->image_z));
+  w->image_y = image_at(own.from, scene->size.y, IS_PERIODIC(scene, y));
+  w->last_y = image_at(own.to, scene->size.y, IS_PERIODIC(scene, y));
+  enter_y(scene, w);
 }
 static inline void enter_z(const scene_t* scene, walk_t* w) {
   const span_t z = of_image(w->z, w->image_z, scene->size.z, IS_PERIODIC(scene, z));
@@ -79,12 +105,10 @@ static inline walk_t walk_over(const scene_t* scene, span_t x, span_t y, span_t 
   w.from = w.to = 0;
   w.list.blocks = 0;
   w.image_x = 1, w.last_x = 0;
-  w.image_y = image_at(y.from, scene->size.y, IS_PERIODIC(scene, y)),
-  w.last_y = image_at(y.to, scene->size.y, IS_PERIODIC(scene, y));
   w.image_z = image_at(z.from, scene->size.z, IS_PERIODIC(scene, z)),
   w.last_z = image_at(z.to, scene->size.z, IS_PERIODIC(scene, z));
   enter_z(scene, &w);
-  enter_y(scene, &w);
+  enter_slice(scene, &w);
   return w;
 }
 
@@ -93,18 +117,18 @@ static inline corners_t outside(corners_t at, float from, float to) {
   return fmax(fmax(from - at, at - to), 0.f);
 }
 
-// The pixels along x of the present row that the balls meet; false if there are none.
+// The pixels along x that the balls meet of the present row; false if there are none.
 static inline bool row_in_balls(const scene_t* scene, walk_t* w) {
   w->row = w->x;
   if (!w->cuts_rows) return true;
   const int4 bits = scene->bins.bits;
-  const int y = (w->row_y << bits.y) + w->image_y * scene->size.y;
+  const int first_y = (w->row_y << bits.y) + w->image_y * scene->size.y;
+  const span_t y = moved_on(span_of(first_y, first_y + (1 << bits.y)), tilt_of_slice(scene, w->image_z));
   const int z = (w->row_z << bits.z) + w->image_z * scene->size.z;
   // Places outside a window stand in the bins at its border.
-  const float north = !IS_PERIODIC(scene, y) && w->row_y == 0 ? -INFINITY : (float)(y * SPACING_Y);
-  const float south = !IS_PERIODIC(scene, y) && w->row_y == scene->bins.rows - 1
-                          ? INFINITY
-                          : (float)((y + (1 << bits.y)) * SPACING_Y);
+  const float north = !IS_PERIODIC(scene, y) && w->row_y == 0 ? -INFINITY : (float)(y.from * SPACING_Y);
+  const float south =
+      !IS_PERIODIC(scene, y) && w->row_y == scene->bins.rows - 1 ? INFINITY : (float)(y.to * SPACING_Y);
   const corners_t dy = outside(w->balls.y, north, south);
   corners_t rest = w->balls.n - (IS_MANHATTAN ? dy : dy * dy);
   if (IS_VOLUME) {
@@ -128,13 +152,17 @@ static inline bool row_in_balls(const scene_t* scene, walk_t* w) {
   return w->row.from <= w->row.to;
 }
 
+// So many units less than a few bits: whole units of the spacing first, which leave no more of them.
+static inline corners_t less(corners_t at, int units) {
+  return at - (float)(units >> FRACTION_BITS) - (float)(units & (ONE - 1)) * (1.f / ONE);
+}
+
 // The next of a long range's blocks that the balls meet, as a range.
 #define LONG_RANGE (4 * PLACES_OF_BLOCK)
 NOINLINE static bool next_blocks(const scene_t* scene, walk_t* w, uint* from, uint* to) {
   balls_t balls = w->balls;
-  balls.x -= (float)((w->image_x - 1) * scene->size.x * SPACING_X);  // the range's image is the one before
-  balls.y -= (float)(w->image_y * scene->size.y * SPACING_Y);
-  balls.z -= (float)(w->image_z * scene->size.z * SPACING_Z);
+  const int4 way = way_to_image(scene, w->image_x - 1, w->image_y, w->image_z);  // the range's image is the one before
+  balls.x = less(balls.x, way.x), balls.y = less(balls.y, way.y), balls.z = less(balls.z, way.z);
   while (w->from < w->to) {
     const uint block = w->from / PLACES_OF_BLOCK, lane = block % BLOCKS_AT_ONCE, eight = block - lane;
     const uint there = (2u << min((w->to - 1) / PLACES_OF_BLOCK - eight, BLOCKS_AT_ONCE - 1u)) - (1u << lane);
@@ -177,7 +205,7 @@ static inline bool next_range(const scene_t* scene, walk_t* w, int4 centre, uint
       *from = scene->starts[first + (uint)(x.from >> bins->bits.x)];
       *to = scene->starts[first + (uint)(x.to >> bins->bits.x) + 1];
       if (*from == *to) continue;
-      *origin = centre - (int4)(image, w->image_y, w->image_z, 0) * scene->size * (ONE * SPACINGS);
+      *origin = centre - way_to_image(scene, image, w->image_y, w->image_z);
       if (!w->has_balls || *to - *from < LONG_RANGE) return true;
       w->from = *from, w->to = *to;
       if (next_blocks(scene, w, from, to)) return true;
@@ -188,15 +216,15 @@ static inline bool next_range(const scene_t* scene, walk_t* w, int4 centre, uint
         enter_y(scene, w);
         continue;
       }
-      w->image_y = image_at(w->y.from, scene->size.y, IS_PERIODIC(scene, y));
       if (++w->row_z > w->end_z) {
         if (!IS_PERIODIC(scene, z) || w->image_z == w->last_z) return false;
         ++w->image_z;
         enter_z(scene, w);
       }
-      enter_y(scene, w);
+      enter_slice(scene, w);
     }
     if (!row_in_balls(scene, w)) continue;
+    w->row = moved_back(w->row, tilt_of_row(scene, w->image_y, w->image_z));
     w->image_x = image_at(w->row.from, scene->size.x, IS_PERIODIC(scene, x));
     w->last_x = image_at(w->row.to, scene->size.x, IS_PERIODIC(scene, x));
   }

@@ -117,19 +117,20 @@ static inline uint changes_along(global const uint* row, int from, int to, int w
   return found | (PERIODIC_X && from == 0 && row[0] != row[width - 1]);
 }
 
-// The row that follows one along y (side 0) or z (side 1); the row itself where there is none. `row_behind` has the row
-// that follows the last one along a periodic y, in a volume each slice's.
-static inline global const uint* row_beside(global const uint* labels, global const uint* row_behind, int side, int y,
+// The row that follows one along y (side 0) or z (side 1); the row itself where there is none. `behind`: in grids that
+// are tilted the rows behind the last ones (beyond.cl).
+static inline global const uint* row_beside(global const uint* labels, global const uint* behind, int side, int y,
                                             int z, int4 size) {
-  if (side == 0 && PERIODIC_Y && y + 1 == size.y) return row_of(row_behind, 0, z, size);
-  const int beside_y = y + (side == 0 && y + 1 < size.y);
+  const bool is_last = side == 0 ? PERIODIC_Y && y + 1 == size.y : PERIODIC_Z && z + 1 == DEPTH(size);
+  if (IS_TILTED && is_last) return behind + (size_t)(side == 0 ? z : DEPTH(size) + y) * (size_t)size.x;
+  const int beside_y = side == 0 ? wrapped(y + 1, size.y, PERIODIC_Y) : y;
   const int beside_z = side == 0 ? z : wrapped(z + 1, DEPTH(size), PERIODIC_Z);
-  return row_of(labels, beside_y, beside_z < DEPTH(size) ? beside_z : z, size);
+  return row_of(labels, beside_y < size.y ? beside_y : y, beside_z < DEPTH(size) ? beside_z : z, size);
 }
 
 // Adds the borders of a block's pixels with those before, below and behind them, where there are any. Of the last two
 // those of a row are one piece where neither row changes. Across the ends of a periodic axis borders count as inside.
-kernel void find_borders(global const uint* restrict labels, global const uint* restrict row_behind, uint count,
+kernel void find_borders(global const uint* restrict labels, global const uint* restrict behind, uint count,
                          int4 size, int4 bits, CELL_PARAMETERS, PAIR_PARAMETERS) {
   local ushort slots[GATHERED_SLOTS];
   local uint pairs[3 * MOST_GATHERED];
@@ -154,7 +155,7 @@ kernel void find_borders(global const uint* restrict labels, global const uint* 
             gather(&gathered, row[wrapped(x - 1, size.x, PERIODIC_X)], row[x], 1, CELL_ARGUMENTS, PAIR_ARGUMENTS);
           }
           for (int side = 0; side < 2; ++side) {
-            global const uint* const beside = row_beside(labels, row_behind, side, y, z, size);
+            global const uint* const beside = row_beside(labels, behind, side, y, z, size);
             if (beside == row) continue;
             const int pixels = brick.right - brick.left;
             const uint ends = changes | changes_along(beside, brick.left, brick.right, size.x) | 1u;

@@ -122,11 +122,15 @@ kernel void join_areas(global const seed_t* restrict seeds, uint count, global u
 }
 
 // How many periods a pixel of a tilted grid is away from where it lies by the rule of place.
-static inline int2 periods_of_way(seed_t seed, way_t way, int x, int y, window_t window) {
+static inline int whole_periods(long way, int period) { return period == 0 ? 0 : (int)(way / ((long)period * UNIT)); }
+static inline int3 periods_of_way(seed_t seed, way_t way, int x, int y, int z, window_t window) {
+  const long along_z = (long)seed_z(seed) * UNIT - centre_behind_z(seed) + way.z - (long)z * UNIT;
+  const int slices = whole_periods(along_z, window.period_z);
   const long along_y = (long)seed_y(seed, window.height) * UNIT - centre_behind_y(seed) + way.y - (long)y * UNIT;
-  const long rows = along_y / ((long)window.period_y * UNIT);
+  const int rows = whole_periods(along_y - (long)slices * TILT_YZ(&window), window.period_y);
   const long along_x = (long)seed_x(seed, window.width) * UNIT - centre_behind_x(seed) + way.x - (long)x * UNIT;
-  return (int2)((int)((along_x - rows * window.shift) / ((long)window.period_x * UNIT)), (int)rows);
+  const long tilts = (long)slices * TILT_XZ(&window) + (long)rows * TILT_XY(&window);
+  return (int3)(whole_periods(along_x - tilts, window.period_x), rows, slices);
 }
 
 // How many periods the pixels [from, to) along an axis are away, in sum, from where they lie by the rule of place,
@@ -141,7 +145,7 @@ static inline int periods_away(int from, int to, int seed, int centre_behind, in
 // How many periods the pixels of a cell are away, in sum, from where they lie by the rule of place: three numbers per
 // cell, for x, y and z. For windows that show a whole period.
 kernel void add_periods(global const uint* restrict labels, SEED_PARAMETERS, int4 bits, global int* restrict away) {
-  const window_t window = window_of(size, periods);
+  const window_t window = window_of(size, lattice);
   block_t block;
   if (!take_block(size, bits, &block)) return;
   FOR_EACH_ROW(y, z, block) {
@@ -156,9 +160,10 @@ kernel void add_periods(global const uint* restrict labels, SEED_PARAMETERS, int
         for (int from = walk.from, to; from < walk.to; from = to) {
           const piece_t piece = piece_from(seed, from, walk.to, y, z, window);
           to = piece.end;
-          const int2 of_piece = periods_of_way(seed, piece.way, from, y, window) * (to - from);
+          const int3 of_piece = periods_of_way(seed, piece.way, from, y, z, window) * (to - from);
           if (of_piece.x != 0) atomic_add(of_cell, of_piece.x);
           if (of_piece.y != 0) atomic_add(of_cell + 1, of_piece.y);
+          if (of_piece.z != 0) atomic_add(of_cell + 2, of_piece.z);
         }
         continue;
       }
@@ -173,16 +178,18 @@ kernel void add_periods(global const uint* restrict labels, SEED_PARAMETERS, int
   }
 }
 
-// Moves the sums there. What the tilt adds is rounded to whole pixels.
-kernel void unwrap_sums(uint count, int4 periods, int4 size, global const int* restrict away,
+// Moves the sums there. What tilts add is rounded to whole pixels.
+kernel void unwrap_sums(uint count, int8 lattice, int4 size, global const int* restrict away,
                         global const uint* restrict area, global long* restrict sum_x, global long* restrict sum_y,
                         global long* restrict sum_z) {
   const uint id = (uint)get_global_id(0);
   if (id >= count || area[id] == 0) return;
-  const int shift = window_of(size, periods).shift;
+  const window_t window = window_of(size, lattice);
   const int3 of_cell = vload3(id, away);
-  sum_x[id] += (long)of_cell.x * size.x + (((long)of_cell.y * shift + UNIT / 2) >> UNIT_BITS);
-  sum_y[id] += (long)of_cell.y * size.y;
+  const long tilt_x = (long)of_cell.y * TILT_XY(&window) + (long)of_cell.z * TILT_XZ(&window);
+  const long tilt_y = (long)of_cell.z * TILT_YZ(&window);
+  sum_x[id] += (long)of_cell.x * size.x + ((tilt_x + UNIT / 2) >> UNIT_BITS);
+  sum_y[id] += (long)of_cell.y * size.y + ((tilt_y + UNIT / 2) >> UNIT_BITS);
   sum_z[id] += (long)of_cell.z * DEPTH(size);
 }
 
@@ -204,7 +211,7 @@ static inline bool is_seed_shown(seed_t seed, window_t window) {
   // Less than a period away from the pixels of a window which is no longer than a period, there is one image.
   const int x = seed_x(seed, width), y = seed_y(seed, height);
   const int row = height > window.period_y ? 0 : y < 0 ? 1 : y >= height ? -1 : 0;
-  const int unit = x * UNIT - centre_behind_x(seed) + CENTRE + row * window.shift;
+  const int unit = x * UNIT - centre_behind_x(seed) + CENTRE + row * TILT_XY(&window);
   int at = unit >> UNIT_BITS;
   if (row != 0 && width <= window.period_x) {
     if (at < 0) at += window.period_x;
@@ -224,7 +231,7 @@ static inline bool is_seed_shown(seed_t seed, window_t window) {
 // those that own pixels), how many of them have pixels, the areas, and their squares.
 kernel void sum_areas(SEED_PARAMETERS, global const uint* restrict area, uint cells_per_item, uint items,
                       global ulong4* restrict partial) {
-  const window_t window = window_of(size, periods);
+  const window_t window = window_of(size, lattice);
   const uint item = (uint)get_global_id(0);
   if (item >= items) return;
   const uint end = min((item + 1) * cells_per_item, count);

@@ -57,7 +57,7 @@ VECTOR_KERNEL void judge_labels(global const uint* restrict labels, global const
   local uint2 wrong_of[MOST_COMPARING];
   local long sum_of[MOST_COMPARING];
   local float greatest_of[MOST_COMPARING];
-  const window_t window = window_of(size, periods);
+  const window_t window = window_of(size, lattice);
   errors_t errors = NO_ERRORS;
   FOR_EACH_VECTOR(first, end, walk, (uint)(size.x * size.y * DEPTH(size))) {
     if (!may_differ(labels, exact, first, end)) continue;
@@ -79,7 +79,7 @@ VECTOR_KERNEL void judge_labels(global const uint* restrict labels, global const
 VECTOR_KERNEL void count_distant(global const uint* restrict a, global const uint* restrict b, uint4 walk,
                                  SEED_PARAMETERS, float tolerance, global uint* restrict differences) {
   local uint of_items[MOST_COMPARING];
-  const window_t window = window_of(size, periods);
+  const window_t window = window_of(size, lattice);
   uint found = 0;
   FOR_EACH_VECTOR(first, end, walk, (uint)(size.x * size.y * DEPTH(size))) {
     if (!may_differ(a, b, first, end)) continue;

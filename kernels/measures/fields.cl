@@ -1,5 +1,6 @@
 // Images that follow from the labels: distances to the seeds, borders of the cells, labels near their seeds.
 
+#include "measures/beyond.cl"
 #include "measures/seed_place.cl"
 
 #if VOROCL_WIDTH == 1
@@ -21,18 +22,18 @@ static inline bool has_vector_of(int4 size) { return has_vector(size.x, size.y *
 static inline int vector_begin(int4 size) { return vector_y() * size.x + vector_x(size.x); }
 
 // Each pixel's distance to its label's seed; NO_SEED without one.
-static inline length_v find_distances(global const uint* labels, global const seed_t* seeds, uint count, int4 of_axes,
+static inline length_v find_distances(global const uint* labels, global const seed_t* seeds, uint count, int8 lattice,
                                       int4 size) {
   const int x = vector_x(size.x), y = row_in_slice(size);
   labels += vector_begin(size);
 #ifdef VOROCL_FAR
-  const window_t window = window_of(size, of_axes);
+  const window_t window = window_of(size, lattice);
   const int z = slice_of(size);
   LENGTH lane[VOROCL_WIDTH];
   for (int i = 0; i < VOROCL_WIDTH; ++i) lane[i] = distance_to(seeds[min(labels[i], count)], x + i, y, z, window);
   return LOAD_VECTOR(lane);
 #else
-  (void)of_axes;
+  (void)lattice;
   const uint_v position = looked_up(seeds, min(LOAD_VECTOR(labels), (uint_v)count));
 #if VOROCL_DIMENSIONS == 3
   const int z = slice_of(size);
@@ -54,7 +55,7 @@ static inline length_v find_distances(global const uint* labels, global const se
 VECTOR_KERNEL void integer_distances(global const uint* restrict labels, SEED_PARAMETERS, global int* restrict out,
                                      global uint* restrict too_long) {
   if (!has_vector_of(size)) return;
-  const length_v distance = find_distances(labels, seeds, count, periods, size);
+  const length_v distance = find_distances(labels, seeds, count, lattice, size);
 #ifdef VOROCL_FAR  // of whole pixels
 #ifdef VOROCL_EUCLIDEAN
   const length_v in_pixels = distance >> (length_v)(2 * UNIT_BITS);
@@ -72,7 +73,7 @@ VECTOR_KERNEL void integer_distances(global const uint* restrict labels, SEED_PA
 
 VECTOR_KERNEL void float_distances(global const uint* restrict labels, SEED_PARAMETERS, global float* restrict out) {
   if (!has_vector_of(size)) return;
-  const length_v distance = find_distances(labels, seeds, count, periods, size);
+  const length_v distance = find_distances(labels, seeds, count, lattice, size);
 #ifdef VOROCL_EUCLIDEAN
   const float_v in_pixels = sqrt(CONVERT_FLOAT_V(distance)) / UNIT;
 #else
@@ -87,7 +88,7 @@ VECTOR_KERNEL void expand_labels(global const uint* restrict labels, SEED_PARAME
                                  global uint* restrict out) {
   if (!has_vector_of(size)) return;
   const length_v limit = (length_v)(LENGTH)min(most, (long)NO_SEED - 1);
-  const int_v beyond = CONVERT_INT_V(find_distances(labels, seeds, count, periods, size) > limit);
+  const int_v beyond = CONVERT_INT_V(find_distances(labels, seeds, count, lattice, size) > limit);
   STORE_VECTOR(select(LOAD_VECTOR(labels + vector_begin(size)), (uint_v)NO_LABEL, beyond), out + vector_begin(size));
 }
 
@@ -98,29 +99,25 @@ kernel void copy_table(global const seed_t* restrict seeds, uint count, global c
   if (id <= count) copy[id] = is_there(seeds[id]) ? table[id] : NO_LABEL;
 }
 
-// Whether a pixel has another label than the pixel at (x, y, z), less than half a period outside the grid. Beyond the
-// rows of a periodic y pixels are shifted by whole ones.
-static inline bool differs(uint own, global const uint* labels, int x, int y, int z, int4 size, int shift) {
-  if (PERIODIC_Y) x += y < 0 ? shift : y >= size.y ? -shift : 0;
-  x = wrapped(x, size.x, PERIODIC_X);
-  y = wrapped(y, size.y, PERIODIC_Y);
-  z = wrapped(z, DEPTH(size), PERIODIC_Z);
-  const bool inside = x >= 0 && x < size.x && y >= 0 && y < size.y && z >= 0 && z < DEPTH(size);
-  return inside && row_of(labels, y, z, size)[x] != own;
+// Whether a pixel has another label than the one at (x, y, z), if there is one.
+static inline bool differs(uint own, global const uint* labels, int x, int y, int z, int4 size, int4 shifts) {
+  const long at = index_of_image(x, y, z, size, shifts);
+  return at >= 0 && labels[at] != own;
 }
 
 // Whether a pixel has another label than one of its four neighbours, in a volume six.
-static inline bool is_border(global const uint* labels, int x, int y, int z, int4 size, int shift) {
+static inline bool is_border(global const uint* labels, int x, int y, int z, int4 size, int4 shifts) {
   const uint own = row_of(labels, y, z, size)[x];
   bool found = false;
   for (int step = -1; step <= 1; step += 2) {
-    found |= differs(own, labels, x + step, y, z, size, shift) || differs(own, labels, x, y + step, z, size, shift);
-    if (DEPTH(size) > 1) found |= differs(own, labels, x, y, z + step, size, shift);
+    found |= differs(own, labels, x + step, y, z, size, shifts) || differs(own, labels, x, y + step, z, size, shifts);
+    if (DEPTH(size) > 1) found |= differs(own, labels, x, y, z + step, size, shifts);
   }
   return found;
 }
 
-VECTOR_KERNEL void mark_borders(global const uint* restrict labels, global uchar* restrict mask, int4 size, int shift) {
+VECTOR_KERNEL void mark_borders(global const uint* restrict labels, global uchar* restrict mask, int4 size,
+                                int4 shifts) {
   if (!has_vector_of(size)) return;
   const int x = vector_x(size.x), y = row_in_slice(size), z = slice_of(size), slice = size.x * size.y;
   global const uint* const pixels = labels + vector_begin(size);
@@ -135,6 +132,6 @@ VECTOR_KERNEL void mark_borders(global const uint* restrict labels, global uchar
     }
     STORE_VECTOR(TO_BYTES(differs), mask);
   } else {
-    for (int i = 0; i < VOROCL_WIDTH; ++i) mask[i] = (uchar)is_border(labels, x + i, y, z, size, shift);
+    for (int i = 0; i < VOROCL_WIDTH; ++i) mask[i] = (uchar)is_border(labels, x + i, y, z, size, shifts);
   }
 }

@@ -8,23 +8,24 @@
 // axes it lies where the window shows it. Distances go the shorter way round along every axis that has a period, shown
 // whole or not.
 //
-// TILTED GRIDS, whose seeds have fractions. What is one period of y further down lies `shift` units further along x: a
-// pixel lies the shortest of all ways from its seed. Of equally short ones it is that to the nearest row of images, and
-// of two equally near the one above the pixel. Images may lie between pixels: then a pixel's place is the pixel that
-// holds its centre.
+// In TILTED GRIDS (core/lattice.cl) a pixel lies the shortest of all ways from its seed. Of equally short ones it is
+// that to the nearest slice and row of images, and of two equally near the one above the pixel. Images may lie between
+// pixels: then a pixel's place is the pixel that holds its centre.
 
 #ifndef VOROCL_SEED_PLACE
 #define VOROCL_SEED_PLACE
 
 // What both kinds of positions need comes first, for a file is included once, whichever branch that is in.
+#include "core/lattice.cl"
 #include "core/metric.cl"
 #include "core/position.cl"
 #include "core/units.cl"
 #include "measures/runs.cl"
 
-// The window: its pixels, the periods that distances know, 0 along an axis without one, and the tilt, in units.
+// The window: its pixels, the periods that distances know, 0 along an axis without one, and the tilts.
 typedef struct {
-  int width, height, depth, period_x, period_y, period_z, shift;
+  int width, height, depth, period_x, period_y, period_z;
+  int4 tilts;
 } window_t;
 
 // From a seed to a pixel's centre along x, y and z, in units; then 0. (A struct of three numbers would go through
@@ -40,9 +41,9 @@ typedef int2 seed_t;
 #define Z_OF(seed) 0
 #endif
 
-static inline window_t window_of(int4 size, int4 periods) {
-  const int period_z = PERIODIC_Z ? DEPTH(size) : 0;
-  const window_t window = {size.x, size.y, DEPTH(size), periods.x, periods.y, period_z, periods.z};
+static inline window_t window_of(int4 size, int8 lattice) {
+  const int period_z = VOROCL_DIMENSIONS == 3 ? lattice.s2 : 0;
+  const window_t window = {size.x, size.y, DEPTH(size), lattice.s0, lattice.s1, period_z, lattice.hi};
   return window;
 }
 
@@ -64,38 +65,35 @@ static inline int centre_behind_z(seed_t seed) {
   return CENTRE - (Z_OF(seed) & (UNIT - 1));
 }
 
-static inline int shorter_way_round(long way, long period) {
-  if (period == 0) return (int)way;
-  if (abs(way) >= (ulong)period) way %= period;  // rare, and a division takes long
-  if (2 * way > period) return (int)(way - period);
-  return (int)(2 * way <= -period ? way + period : way);
+// From a seed to a pixel along one axis, in the grid; and the shorter way.
+static inline long inside_x(seed_t seed, int x) { return (long)x * UNIT + CENTRE - seed.x; }
+static inline long inside_y(seed_t seed, int y) { return (long)y * UNIT + CENTRE - seed.y; }
+static inline long inside_z(seed_t seed, int z) {
+  (void)seed, (void)z;
+  return VOROCL_DIMENSIONS == 3 ? (long)z * UNIT + CENTRE - Z_OF(seed) : 0;
 }
-
-// Along one axis.
 static inline int way_x(seed_t seed, int x, window_t window) {
-  return shorter_way_round((long)x * UNIT + CENTRE - seed.x, (long)window.period_x * UNIT);
+  return (int)shorter_way_of(inside_x(seed, x), (long)window.period_x * UNIT);
 }
 static inline int way_y(seed_t seed, int y, window_t window) {
-  return shorter_way_round((long)y * UNIT + CENTRE - seed.y, (long)window.period_y * UNIT);
+  return (int)shorter_way_of(inside_y(seed, y), (long)window.period_y * UNIT);
 }
 static inline int way_z(seed_t seed, int z, window_t window) {
-  (void)seed, (void)z, (void)window;
-  return VOROCL_DIMENSIONS == 3 ? shorter_way_round((long)z * UNIT + CENTRE - Z_OF(seed), (long)window.period_z * UNIT)
-                                : 0;
+  return (int)shorter_way_of(inside_z(seed, z), (long)window.period_z * UNIT);
 }
 #else
 typedef uint seed_t;
 
 // No axis has a period but those that are shown whole: they are known when the kernel is built.
-static inline window_t window_of(int4 size, int4 periods) {
-  (void)periods;
+static inline window_t window_of(int4 size, int8 lattice) {
+  (void)lattice;
   const window_t window = {size.x,
                            size.y,
                            DEPTH(size),
                            PERIODIC_X ? size.x : 0,
                            PERIODIC_Y ? size.y : 0,
                            PERIODIC_Z ? DEPTH(size) : 0,
-                           0};
+                           0};  // no tilts
   return window;
 }
 
@@ -137,14 +135,14 @@ static inline int way_z(seed_t seed, int z, window_t window) {
 
 // What kernels take of a diagram's seeds and its window; the list of seeds ends with one that is absent, and labels
 // that are no seed's id are clamped to it.
-#define SEED_PARAMETERS global const seed_t *restrict seeds, uint count, int4 periods, int4 size
+#define SEED_PARAMETERS global const seed_t *restrict seeds, uint count, int8 lattice, int4 size
 
 // The pixel at the end of a way from a seed: where that is, as the rule of place says.
 static inline int place_x(seed_t seed, int way, int width) {
   return seed_x(seed, width) + ((way - centre_behind_x(seed) + UNIT / 2) >> UNIT_BITS);
 }
 static inline int place_y(seed_t seed, int way, int height) {
-  return seed_y(seed, height) + ((way - centre_behind_y(seed)) >> UNIT_BITS);
+  return seed_y(seed, height) + ((way - centre_behind_y(seed) + UNIT / 2) >> UNIT_BITS);
 }
 
 static inline int place_z(seed_t seed, int way) {
@@ -158,33 +156,7 @@ static inline LENGTH length_of(way_t way) {
 }
 
 #ifdef VOROCL_FRACTIONS
-static inline bool is_tilted(window_t window) { return window.shift != 0; }
-
-// The shortest of a way and those round by the periods of a tilted grid. Rows of images are looked at from the nearest
-// on, until they are too far.
-static inline way_t shortest_way_round(long x, long y, window_t window) {
-  const long period_x = (long)window.period_x * UNIT, period_y = (long)window.period_y * UNIT;
-  const int near_y = shorter_way_round(y, period_y);
-  const long near_x = x - (y - near_y) / period_y * window.shift;
-  way_t shortest = (way_t)(shorter_way_round(near_x, period_x), near_y, 0, 0);
-  LENGTH least = length_of(shortest);
-  for (long row = 1;; ++row) {
-    bool is_far = true;
-    for (int turn = 0; turn < 2; ++turn) {
-      const int side = (near_y > 0) == (turn == 0) ? -1 : 1;  // the nearer row of the two first
-      const long along_y = near_y + side * row * period_y;
-      if (ALONG((LENGTH)along_y) >= least) continue;
-      is_far = false;
-      const int along_x = shorter_way_round(near_x + side * row * window.shift, period_x);
-      const way_t way = (way_t)(along_x, (int)along_y, 0, 0);
-      const LENGTH distance = length_of(way);
-      if (distance >= least) continue;
-      least = distance;
-      shortest = way;
-    }
-    if (is_far) return shortest;
-  }
-}
+static inline bool is_tilted(window_t window) { return any(window.tilts.xyz != 0); }
 #else
 static inline bool is_tilted(window_t window) {
   (void)window;
@@ -195,7 +167,10 @@ static inline bool is_tilted(window_t window) {
 static inline way_t way_to(seed_t seed, int x, int y, int z, window_t window) {
 #ifdef VOROCL_FRACTIONS
   if (is_tilted(window)) {
-    return shortest_way_round((long)x * UNIT + CENTRE - seed.x, (long)y * UNIT + CENTRE - seed.y, window);
+    const lattice_t lattice = lattice_of(window.period_x, window.period_y, window.period_z, window.tilts, UNIT);
+    const way_t spacings = (way_t)(SPACING_X, SPACING_Y, SPACING_Z, 1);
+    return shortest_way_round(&lattice, inside_x(seed, x) * SPACING_X, inside_y(seed, y) * SPACING_Y,
+                              inside_z(seed, z) * SPACING_Z) / spacings;
   }
 #endif
   return (way_t)(way_x(seed, x, window), way_y(seed, y, window), way_z(seed, z, window), 0);
@@ -238,7 +213,7 @@ static inline piece_t piece_from(seed_t seed, int from, int to, int y, int z, wi
   int inside = from, outside = to;
   for (int at = to - 1; outside - inside > 1; at = (inside + outside) / 2) {
     const way_t way = way_to(seed, at, y, z, window);
-    if (way.x - piece.way.x == (at - from) * UNIT && way.y == piece.way.y) {
+    if (way.x - piece.way.x == (at - from) * UNIT && way.y == piece.way.y && way.z == piece.way.z) {
       inside = at;
     } else {
       outside = at;

@@ -34,7 +34,7 @@ static inline void add_to_box(global box_t* box, int left, int right, int y, int
 kernel void clear_shapes(SEED_PARAMETERS, int4 bits, global ushort* restrict home, global box_t* restrict home_boxes,
                          global box_t* restrict other_boxes, global LENGTH* restrict distances,
                          global uint* restrict farthest) {
-  (void)periods;
+  (void)lattice;
   const uint id = (uint)get_global_id(0);
   if (id >= count) return;
   home[id] = home_of(seeds[id], size, bits);
@@ -55,7 +55,7 @@ static inline bool has_next_y(int y, int step, int way, window_t window) {
   return !is_tilted(window) && has_next(y, step, window.height, PERIODIC_Y, way, window.period_y);
 }
 static inline bool has_next_z(int z, int step, int way, window_t window) {
-  return window.depth > 1 && has_next(z, step, window.depth, PERIODIC_Z, way, window.period_z);
+  return window.depth > 1 && !is_tilted(window) && has_next(z, step, window.depth, PERIODIC_Z, way, window.period_z);
 }
 
 // Where a row and those above and below it begin among the labels. One that is not there, or where the way from the
@@ -97,7 +97,7 @@ kernel void add_shapes(global const uint* restrict labels, SEED_PARAMETERS, int4
                        global const ushort* restrict home, global box_t* restrict home_boxes,
                        global int* restrict other_boxes, global LENGTH* restrict distances,
                        global uint* restrict farthest) {
-  const window_t window = window_of(size, periods);
+  const window_t window = window_of(size, lattice);
   block_t block;
   if (!take_block(size, bits, &block)) return;
   FOR_EACH_ROW(y, z, block) {
@@ -187,7 +187,7 @@ kernel void join_shapes(SEED_PARAMETERS, global const box_t* restrict home_boxes
   if (!is_shown) {
     distances[id] = -1;
   } else if (found != EMPTY) {
-    const window_t window = window_of(size, periods);
+    const window_t window = window_of(size, lattice);
     distances[id] = max(distances[id], distance_of_farthest(found, seed, window));
   }
 }

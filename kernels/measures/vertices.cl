@@ -45,7 +45,7 @@ static inline uint_v mark_vertices(global const uint* row, global const uint* be
 
 // Each work-item marks the vertices of some chunks of one row of corners, and counts them. Behind the last row of
 // labels comes, along a periodic y, the first one, in a tilted grid shifted.
-VECTOR_KERNEL void find_vertices(global const uint* restrict labels, global const uint* restrict row_behind, int width,
+VECTOR_KERNEL void find_vertices(global const uint* restrict labels, global const uint* restrict behind, int width,
                                  int height, int chunks_of_item, global uint* restrict words,
                                  global uint* restrict count) {
   const int columns = corners_along(width, PERIODIC_X), chunks_of_row = (columns - 1) / CHUNK + 1;
@@ -54,7 +54,7 @@ VECTOR_KERNEL void find_vertices(global const uint* restrict labels, global cons
   if (y >= corners_along(height, PERIODIC_Y)) return;
   const int begin = (int)(get_global_id(0) % (size_t)across) * chunks_of_item;
   global const uint* const row = labels + y * width;
-  global const uint* const below = y + 1 < height ? row + width : row_behind;
+  global const uint* const below = y + 1 < height ? row + width : behind;
   uint_v found = (uint_v)0;
   for (int chunk = begin; chunk < min(begin + chunks_of_item, chunks_of_row); ++chunk) {
     const uint_v marks = mark_vertices(row, below, chunk * CHUNK, columns, width);

@@ -19,7 +19,7 @@ static inline void add_long_to_pair(global uint* pair, ulong value) {
 kernel void add_weights(global const uint* restrict labels, SEED_PARAMETERS, int4 bits,
                         global const ushort* restrict weights, global ulong* restrict at_home,
                         global uint* restrict elsewhere, global ulong* restrict energies) {
-  const window_t window = window_of(size, periods);
+  const window_t window = window_of(size, lattice);
   block_t block;
   if (!take_block(size, bits, &block)) return;
   ulong energy_low = 0, energy_high = 0;  // of the low words of the squares, and of the high ones
@@ -72,7 +72,7 @@ kernel void add_weights(global const uint* restrict labels, SEED_PARAMETERS, int
 kernel void join_weights(SEED_PARAMETERS, global const ulong* restrict at_home, global const uint2* restrict elsewhere,
                          global ulong* restrict weight, global long* restrict sum_x, global long* restrict sum_y,
                          global long* restrict sum_z) {
-  (void)periods;
+  (void)lattice;
   const uint id = (uint)get_global_id(0);
   if (id >= count) return;
   global const ulong* const near = at_home + 4 * (size_t)id;

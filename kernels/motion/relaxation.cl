@@ -6,7 +6,7 @@
 // 1/UNIT of them, which is a square unit times a unit: more bits of a block's sum could be lost.
 kernel void add_energy(global const uint* restrict labels, SEED_PARAMETERS, int4 bits,
                        global ulong* restrict energies) {
-  const window_t window = window_of(size, periods);
+  const window_t window = window_of(size, lattice);
   block_t block;
   if (!take_block(size, bits, &block)) return;
   ulong energy = 0, rest = 0;

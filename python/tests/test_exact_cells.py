@@ -7,7 +7,7 @@ import pandas
 import pytest
 import pyvista
 import shapely
-from scipy.spatial import ConvexHull, Voronoi
+from scipy.spatial import ConvexHull, Voronoi, cKDTree
 
 import vorocl
 
@@ -63,22 +63,29 @@ def test_periodic_cells_are_those_of_freud(points, tilt):
     assert not found.cells["touches_border"].any()
 
 
-@pytest.mark.parametrize("tilt", [0.7, (0.5, -0.6, 0.9), (-1.9, 2, 1), (2, 5.5, -3)])
-def test_cells_of_tilted_volumes_are_those_of_scipy(places, tilt):
+def images_of(places, tilt):
+    """Those around the box, since SciPy knows no period: they, whether each is the place itself, its row; and the box's edges."""
     sides = np.subtract(BOX[3:], BOX[:3])
     xy, xz, yz = tilt if isinstance(tilt, tuple) else (tilt, 0, 0)
-    found = vorocl.exact_cells(places, BOX, periodic=(True,) * 3, tilt=tilt)
-    assert found.cells["volume"].sum() == pytest.approx(8, rel=1e-13) and found.cells["certified"].all()
     edges = np.array([(sides[0], 0, 0), (xy, sides[1], 0), (xz, yz, sides[2])])
-    # SciPy knows no period: it gets the images around the box, of the same lattice with tilts of half a side at most.
-    short = edges.copy()
+    short = edges.copy()  # of the same lattice with tilts of half a side at most
     short[2] -= np.round(short[2, 1] / sides[1]) * short[1]
     short[1:, 0] -= np.round(short[1:, 0] / sides[0]) * sides[0]
     counts = np.stack(np.meshgrid(*[np.arange(-3, 4)] * 3, indexing="ij"), axis=-1).reshape(-1, 3)
     images = places + (counts @ short)[:, None]
     near = ((images > np.subtract(BOX[:3], 1)) & (images < np.add(BOX[3:], 1))).all(axis=2)
     itself, row = near & ~counts.any(axis=1)[:, None], np.broadcast_to(np.arange(len(places)), near.shape)
-    images, itself, row = images[near], itself[near], row[near]
+    return images[near], itself[near], row[near], edges
+
+
+TILTS = [0.7, (0.5, -0.6, 0.9), (-1.9, 2, 1), (2, 5.5, -3)]
+
+
+@pytest.mark.parametrize("tilt", TILTS)
+def test_cells_of_tilted_volumes_are_those_of_scipy(places, tilt):
+    found = vorocl.exact_cells(places, BOX, periodic=(True,) * 3, tilt=tilt)
+    assert found.cells["volume"].sum() == pytest.approx(8, rel=1e-13) and found.cells["certified"].all()
+    images, itself, row, edges = images_of(places, tilt)
     voronoi = Voronoi(images)
     ridges = np.vstack([voronoi.ridge_points, voronoi.ridge_points[:, ::-1]])
     ridges = ridges[itself[ridges[:, 0]]]
@@ -98,6 +105,23 @@ def test_cells_of_tilted_volumes_are_those_of_scipy(places, tilt):
     np.add.at(sums, pairs["a"], parts)
     np.add.at(sums, pairs["b"], -parts)
     np.testing.assert_allclose(sums, 0, atol=1e-10)
+
+
+@pytest.mark.parametrize("tilt", TILTS)
+def test_voxels_of_tilted_volumes_are_those_of_the_nearest_images(places, tilt):
+    shape = (20, 40, 80)
+    box = dict(bounds=BOX, periodic=(True,) * 3, tilt=tilt)
+    diagram = vorocl.diagram(places, shape, **box)
+    images, _, row, _ = images_of(places, tilt)
+    axes = [low + (np.arange(n) + 0.5) * (high - low) / n for low, high, n in zip(BOX[:3], BOX[3:], shape[::-1])]
+    z, y, x = np.meshgrid(*axes[::-1], indexing="ij")
+    away, nearest = cKDTree(images).query(np.stack([x, y, z], axis=-1))
+    labels = diagram.read()
+    wrong = labels != row[nearest]
+    assert wrong.mean() < 1e-4  # places are rounded to 1/4096 of a voxel
+    np.testing.assert_allclose(diagram.distances() * (BOX[3] - BOX[0]) / shape[2], away, atol=1e-4)
+    simulation = vorocl.Simulation(places, shape, **dict(box, tilt=0))
+    np.testing.assert_array_equal(simulation.step(places, tilt=tilt).read(), labels)
 
 
 @pytest.mark.parametrize("tilt", [0, 0.7, -1, 1.99, 4 + 0.7])
@@ -289,7 +313,7 @@ def test_tables_of_volumes(places):
         (lambda: vorocl.exact_cells(places, BOX, periodic=(True, True)), "three booleans"),
         (lambda: vorocl.exact_cells(places, BOX, periodic=(True, True, False), tilt=(0, 1, 0)), "periodic in x and z"),
         (lambda: vorocl.exact_cells(points, BOUNDS, periodic=(True, True), tilt=(1, 0, 0)), "tilt must be a number"),
-        (lambda: vorocl.cells(places, (4, 5, 6), bounds=BOX, periodic=(True,) * 3, tilt=(1, 0, 0)), "exact cells"),
+        (lambda: vorocl.cells(places, (4, 5, 6), method="jfa", bounds=BOX, periodic=(True,) * 3, tilt=1), "is tilted"),
         (lambda: vorocl.exact_cells(places, 7), "bounds"),
     ]:
         with pytest.raises(vorocl.BadArgument, match=message):

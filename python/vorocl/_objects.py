@@ -30,7 +30,7 @@ from ._arguments import (
 )
 from ._device import Buffer, Device, OnDevice, is_of_pyopencl, to_device
 from ._errors import BadArgument
-from ._grid import Bounds, Frame, Grid, Shape, Unpack, to_grid
+from ._grid import Bounds, Frame, Grid, Shape, Tilt, Unpack, to_grid
 from ._parameters import with_parameters
 
 CELL = row_of(
@@ -166,7 +166,7 @@ class Seeds(OnDevice):
         points: ArrayLike,
         *,
         bounds: Optional[Bounds] = None,
-        tilt: Optional[float] = None,
+        tilt: Optional[Tilt] = None,
         weights: Optional[ArrayLike] = None,
     ) -> Optional[int]:
         """Move the seeds to new points: a new frame. Their number may change.
@@ -178,7 +178,7 @@ class Seeds(OnDevice):
             the bounds and the tilt.
         bounds : sequence of float, optional
             What the grid shows from this frame on, such as a simulation's box that changes. Without it, what it showed.
-        tilt : float, optional
+        tilt : float or (float, float, float), optional
             The tilt from this frame on, such as that of a box that is sheared. Without it, what it was.
         weights : array_like, optional
             Those of these points, as that of the constructor: seeds with weights go to points with weights.
@@ -752,7 +752,7 @@ class Simulation(OnDevice):
         points: ArrayLike,
         *,
         bounds: Optional[Bounds] = None,
-        tilt: Optional[float] = None,
+        tilt: Optional[Tilt] = None,
         weights: Optional[ArrayLike] = None,
     ) -> Diagram:
         """Move the seeds to the points of the next frame, and fill the diagram. Enqueues the work and returns.
@@ -763,7 +763,7 @@ class Simulation(OnDevice):
             As that of `Seeds`. Seeds may appear and vanish.
         bounds : sequence of float, optional
             What the grid shows from this frame on, such as a box that changes. Without it, what it showed.
-        tilt : float, optional
+        tilt : float or (float, float, float), optional
             The tilt from this frame on, such as that of a box that is sheared. Without it, what it was.
         weights : array_like, optional
             Those of these points: see `Seeds`. Frames with weights follow each other.

@@ -62,7 +62,7 @@ tilt : float or (float, float, float), optional
     Of a box that is tilted in its plane, as LAMMPS's ``xy``: how far the copy of the grid at greater y is shifted along
     x, in the units of the points. The grid has the points of the parallelogram with the edges (width, 0) and
     (tilt, height). Both axes must be periodic then. Methods that flood know no tilt. Of a volume three: LAMMPS's ``xy``,
-    ``xz`` and ``yz``, which `exact_cells` alone takes.""",
+    ``xz`` and ``yz``.""",
     "outside": """\
 outside : {"count", "absent", "refuse"}, optional
     What becomes of points outside the grid or the bounds. "count": the grid is a window of a larger plane, and they are

@@ -24,11 +24,6 @@ std::string difference(const Grid& seeds, const Grid& diagram) {
          " pixels, but show other stretches of the data; make both of one grid";
 }
 
-const Window& checked(const Window& window) {
-  if (!window.grid().is_volume() || !window.grid().is_tilted()) return window;
-  throw Error("the box of the volume is tilted, which diagrams of voxels do not know; exact cells take it");
-}
-
 }  // namespace
 
 // --- what a diagram holds ---
@@ -36,7 +31,7 @@ const Window& checked(const Window& window) {
 DiagramState::DiagramState(const Device& device_of_diagram, const Window& window_of_diagram,
                            const cl::Buffer& label_image)
     : device(device_of_diagram),
-      window(checked(window_of_diagram)),
+      window(window_of_diagram),
       grid(window_of_diagram),
       labels(label_image),
       memory(device, "a diagram's working memory", bytes_of(grid)),
@@ -203,7 +198,7 @@ DiagramContents written(const DiagramState& state, const Seeds& seeds, Metric me
   contents.metric = checked(metric);
   contents.placement = state.place(seeds, metric);
   contents.seeds = Internal::state(seeds).frame();
-  if (contents.seeds->are_points || contents.placement->goes_beyond || metric == Metric::great_circle)
+  if (contents.seeds->are_points() || contents.placement->goes_beyond || metric == Metric::great_circle)
     contents.points = state.place_points(*contents.seeds, metric);
   return contents;
 }

@@ -103,7 +103,7 @@ class Filling {
   Metric metric() const { return next_.metric; }
 
   /// Whether labels are made of the places of the seeds: of points, and where they go beyond the window.
-  bool takes_places() const { return seeds().are_points || placement().goes_beyond; }
+  bool takes_places() const { return seeds().are_points() || placement().goes_beyond; }
 
   /// Takes these for what the labels are made of. The host waits if it has no list of the seeds and they go
   /// beyond the window.

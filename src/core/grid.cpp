@@ -212,7 +212,6 @@ Grid Grid::tilted(double tilt, double xz, double yz) const {
   grid.tilt_xz_ = xz;
   grid.tilt_yz_ = yz;
   if (grid.is_tilted_plane()) {
-    refuse_volume(*this, "a tilt");
     if (xz != 0 || yz != 0) throw Error("a plane is tilted by xy alone; xz and yz are tilts of volumes");
     const double period = x_.to() - x_.from(), reduced = std::remainder(tilt, period);
     grid.tilt_ = 2 * reduced == -period ? -reduced : reduced;
@@ -223,11 +222,20 @@ Grid Grid::tilted(double tilt, double xz, double yz) const {
   return grid;
 }
 
-std::int64_t Grid::shift() const {
-  const double periods = tilt_ / (x_.to() - x_.from());
-  const auto parts =
-      static_cast<std::int64_t>(std::nearbyint(periods * static_cast<double>(width()) * fractions_of_pixel));
-  return x_.is_reversed() == y_.is_reversed() ? parts : -parts;
+Grid::Shifts Grid::shifts() const {
+  // In periods of the axis that each leans along.
+  const auto period = [](const Axis& axis) { return axis.to() - axis.from(); };
+  const auto less_whole_ones = [](double periods) { return std::remainder(periods, 1); };
+  const auto in_units = [](double periods, const Axis& axis, const Axis& from) {
+    const auto units = static_cast<std::int64_t>(
+        std::nearbyint(periods * static_cast<double>(axis.pixels()) * fractions_of_pixel));
+    return axis.is_reversed() == from.is_reversed() ? units : -units;
+  };
+  const double xy = tilt_ / period(x_), yz = tilt_yz_ == 0 ? 0 : tilt_yz_ / period(y_);
+  const double rows = yz - less_whole_ones(yz);  // whole periods of y, each of which leans along x
+  const double xz = tilt_xz_ / period(x_) - rows * xy;
+  return {in_units(less_whole_ones(xy), x_, y_), in_units(less_whole_ones(xz), x_, z_),
+          in_units(less_whole_ones(yz), y_, z_)};
 }
 
 Window::Window(const Grid& grid)

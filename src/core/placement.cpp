@@ -43,7 +43,7 @@ bool are_crowded(const PixelGrid& volume, const std::vector<std::uint32_t>& voxe
 
 bool kernels_go_round(const Window& window, const PixelGrid& shown) {
   constexpr int most = 32000;  // ways across the ends of periods must fit in 16 bits
-  return window.is_whole() && !window.grid().is_tilted() && shown.periodic() == window.periodic() &&
+  return window.is_whole() && shown.periodic() == window.periodic() &&
          (!shown.periodic_x() || shown.width() <= most) && (!shown.periodic_y() || shown.height() <= most);
 }
 
@@ -129,6 +129,10 @@ PointPlacement placement_of(const Window& window, const PixelGrid& shown, const 
   const Region region = labelled_region(window);
   const auto as_int = [](std::int64_t number) { return static_cast<cl_int>(number); };
   const Periods periods(window.grid());
+  const auto [sx, sy, sz] = shown.spacing();
+  const std::int64_t reach =
+      ((periods.x * sx + periods.y * sy + periods.z * sz) / 2 + 1) / std::min({sx, sy, sz}) + 1;
+  const Grid::Shifts shifts = window.grid().is_tilted() ? window.grid().shifts() : Grid::Shifts{};
   return {shown,
           seeds,
           seeds,
@@ -137,7 +141,8 @@ PointPlacement placement_of(const Window& window, const PixelGrid& shown, const 
           static_cast<cl_uint>(count),
           {{as_int(region.left), as_int(region.top), 0}},
           {{as_int(region.right), as_int(region.bottom), shown.depth() - 1}},
-          {{as_int(periods.x), as_int(periods.y), as_int(window.grid().shift()), 0}}};
+          {{as_int(periods.x), as_int(periods.y), as_int(periods.z), 0, as_int(shifts.xy), as_int(shifts.xz),
+            as_int(shifts.yz), as_int(reach)}}};
 }
 
 }  // namespace

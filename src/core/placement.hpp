@@ -50,7 +50,7 @@ struct PointPlacement {
   cl::Buffer ids;     // of their seeds; null: they are the seeds
   cl_uint count = 0;  // of places
   cl_int4 first{}, last{};  // of the pixels that get labels: x, y and z
-  cl_int4 periods{};        // in pixels, 0 along an axis that is not periodic; and the tilt, in fractions
+  cl_int8 lattice{};        // what repeats: LATTICE of kernels/core/lattice.cl
 
   // Where seeds at the centres of pixels are too far away for fractions, all seeds, or places, are in pixels.
   bool seeds_in_pixels = false, places_in_pixels = false;

@@ -25,9 +25,7 @@ class Farthest {
  public:
   explicit Farthest(const Axis& axis) : period_(axis.is_periodic() ? axis.pixels() : 0) {}
 
-  void add(std::int64_t from, std::int64_t to) {
-    greatest_ = std::max(greatest_, std::abs(shorter_way(to - from, period_)));
-  }
+  void add(std::int64_t way) { greatest_ = std::max(greatest_, std::abs(shorter_way(way, period_))); }
   std::int64_t greatest() const { return greatest_; }
 
  private:
@@ -37,24 +35,60 @@ class Farthest {
 /// The same in a tilted grid, of ways along the axis where they are longer.
 class FarthestIfTilted {
  public:
-  explicit FarthestIfTilted(const Grid& grid) : images_(grid, fractions_of_pixel) {}
+  explicit FarthestIfTilted(const Grid& grid) : grid_(grid), shifts_(grid.shifts()) {}
 
-  void add(const Place& from, const Place& to) {
-    const Region start = {0, 0, 0, 0};
-    const Place way = {in_fractions(pixel_of(to.x) - pixel_of(from.x)),
-                       in_fractions(pixel_of(to.y) - pixel_of(from.y))};
-    std::int64_t least = std::max(images_.x, images_.y);
-    each_place(start, images_, way, [&](const Place& image) {
-      least = std::min(least, std::max(std::abs(image.x), std::abs(image.y)));
+  /// A way in pixels.
+  void add(std::int64_t x, std::int64_t y, std::int64_t z) {
+    // So far away the image is that lies nearest along z, and of these along y and then x.
+    std::int64_t least = std::max({grid_.width(), grid_.height(), grid_.depth()}) * fractions_of_pixel;
+    each_image(grid_.z(), in_fractions(z), least, [&](std::int64_t turns_z, std::int64_t along_z) {
+      const std::int64_t y_there = in_fractions(y) + turns_z * shifts_.yz;
+      each_image(grid_.y(), y_there, least, [&](std::int64_t turns_y, std::int64_t along_y) {
+        const std::int64_t x_there = in_fractions(x) + turns_z * shifts_.xz + turns_y * shifts_.xy;
+        const std::int64_t along_x = shorter_way(x_there, period_of(grid_.x()));
+        least = std::min(least, std::max({std::abs(along_x), std::abs(along_y), std::abs(along_z)}));
+      });
     });
     greatest_ = std::max(greatest_, least);
   }
   double greatest() const { return static_cast<double>(greatest_) / fractions_of_pixel; }
 
  private:
-  Images images_;
+  static std::int64_t period_of(const Axis& axis) {
+    return axis.is_periodic() ? in_fractions(axis.pixels()) : 0;
+  }
+
+  /// Calls a function with whole periods and the ways with them, those that are no longer than the least one.
+  template <typename Use>
+  static void each_image(const Axis& axis, std::int64_t way, const std::int64_t& least, Use use) {
+    const std::int64_t period = period_of(axis);
+    if (period == 0) return use(0, way);
+    const std::int64_t nearest = (shorter_way(way, period) - way) / period;
+    for (const int side : {1, -1}) {
+      for (std::int64_t turns = nearest + (side < 0 ? side : 0); std::abs(way + turns * period) <= least;
+           turns += side) {
+        use(turns, way + turns * period);
+      }
+    }
+  }
+
+  Grid grid_;
+  Grid::Shifts shifts_;
   std::int64_t greatest_ = 0;
 };
+
+double way_of_voxels(const SeedsFrame& earlier, const SeedsFrame& now) {
+  FarthestIfTilted farthest(now.grid);
+  const std::vector<std::optional<Point>> from = earlier.read_positions(), to = now.read_positions();
+  const auto way = [](double a, double b) {
+    return static_cast<std::int64_t>(std::floor(b) - std::floor(a));
+  };
+  for (std::size_t id = 0; id < std::min(from.size(), to.size()); ++id) {
+    if (from[id] && to[id])
+      farthest.add(way(from[id]->x, to[id]->x), way(from[id]->y, to[id]->y), way(from[id]->z, to[id]->z));
+  }
+  return farthest.greatest();
+}
 
 double way_on_device(const SeedsFrame& earlier, const SeedsFrame& now) {
   const std::size_t count = std::min(earlier.size, now.size);
@@ -118,19 +152,17 @@ std::size_t PointCheck::outside() const {
 double greatest_way(const Grid& grid, const std::vector<Place>& from, const std::vector<Place>& to) {
   const auto each_way = [&](auto use) {
     for (std::size_t id = 0; id < std::min(from.size(), to.size()); ++id) {
-      if (!is_absent(from[id]) && !is_absent(to[id])) use(from[id], to[id]);
+      const Place &a = from[id], &b = to[id];
+      if (!is_absent(a) && !is_absent(b)) use(pixel_of(b.x) - pixel_of(a.x), pixel_of(b.y) - pixel_of(a.y));
     }
   };
   if (grid.is_tilted()) {
     FarthestIfTilted farthest(grid);
-    each_way([&](const Place& a, const Place& b) { farthest.add(a, b); });
+    each_way([&](std::int64_t along_x, std::int64_t along_y) { farthest.add(along_x, along_y, 0); });
     return farthest.greatest();
   }
   Farthest x(grid.x()), y(grid.y());
-  each_way([&](const Place& a, const Place& b) {
-    x.add(pixel_of(a.x), pixel_of(b.x));
-    y.add(pixel_of(a.y), pixel_of(b.y));
-  });
+  each_way([&](std::int64_t along_x, std::int64_t along_y) { x.add(along_x), y.add(along_y); });
   return static_cast<double>(std::max(x.greatest(), y.greatest()));
 }
 
@@ -147,9 +179,26 @@ double SeedsFrame::way_from(const SeedsFrame& earlier) const {
   if (earlier.grid != grid || !device.same_as(earlier.device)) {
     return static_cast<double>(std::max({grid.width(), grid.height(), grid.depth()}));
   }
+  if (has_voxels(grid) && grid.is_tilted()) return way_of_voxels(earlier, *this);
   const bool on_device = whole && earlier.whole && !(listed && earlier.listed) && !grid.is_tilted();
   return on_device ? way_on_device(earlier, *this) : greatest_way(grid, *earlier.places(), *places());
 }
+
+namespace {
+
+/// The places of seeds at the centres of their voxels.
+cl::Buffer places_at_centres(const SeedsFrame& frame) {
+  std::vector<cl_int4> places(frame.size + 1, {{absent_coordinate, 0, 0, 0}});
+  const std::vector<std::optional<Point>> positions = frame.read_positions();
+  const auto in_units = [](double at) { return static_cast<cl_int>(at * fractions_of_pixel); };
+  for (std::size_t id = 0; id < frame.size; ++id) {
+    if (const std::optional<Point>& at = positions[id])
+      places[id] = {{in_units(at->x), in_units(at->y), in_units(at->z), 0}};
+  }
+  return allocate_with(frame.device, places, "the seeds");
+}
+
+}  // namespace
 
 double SeedsFrame::way_of_last_move() const { return before ? way_from(*before) : way.last; }
 
@@ -366,9 +415,11 @@ std::shared_ptr<const Placement> SeedsFrame::place_in(const Window& window, cons
 std::shared_ptr<const PointPlacement> SeedsFrame::place_points_in(const Window& window,
                                                                   const PixelGrid& shown) const {
   return placements->of_points.get(window, shown, [&] {
-    return whole && whole->places && kernels_go_round(window, shown)
-               ? placed_points(window, shown, *whole->places, size)
-               : place_points(device, window, shown, *places(), are_points, lags().get());
+    if (whole && kernels_go_round(window, shown)) {
+      if (whole->places) return placed_points(window, shown, *whole->places, size);
+      if (has_voxels(grid)) return placed_points(window, shown, places_at_centres(*this), size);
+    }
+    return place_points(device, window, shown, *places(), are_points(), lags().get());
   });
 }
 

@@ -85,10 +85,6 @@ struct SeedsFrame {
   std::shared_ptr<const PointCheck> points = nullptr;  // none unless the points came in the caller's buffer
   bool counted_there = false;                          // the check counts seeds that are absent
 
-  /// Whether diagrams take the places of the seeds: those of points, and all in a tilted grid, where images
-  /// do not lie in the middle of pixels. Else the seeds lie in the middle of theirs.
-  bool are_points = false;
-
   GivenPoints given = {};  // none where they came in a buffer, or seeds were made or moved otherwise
   PointsThere there = {};  // a copy of those that came in a buffer; likewise
 
@@ -102,6 +98,10 @@ struct SeedsFrame {
 
   /// Whether its points are not snapped: an engine may do that.
   bool is_off_centre = false;
+
+  /// Whether diagrams take the places of the seeds: those of points, and all in a tilted grid, where images
+  /// do not lie in the middle of pixels. Else the seeds lie in the middle of theirs.
+  bool are_points() const { return is_off_centre || grid.is_tilted(); }
 
   /// All of the grid in a diagram, made with the frame; null if that is not possible, or goes beyond it.
   std::shared_ptr<const Placement> whole = nullptr;
@@ -121,7 +121,7 @@ struct SeedsFrame {
   /// places() where the window is not the whole grid.
   std::shared_ptr<const Placement> place_in(const Window& window, const PixelGrid& shown) const;
 
-  /// The same as places, where `are_points` or the frame goes beyond the window.
+  /// The same as places, where are_points() or the frame goes beyond the window.
   std::shared_ptr<const PointPlacement> place_points_in(const Window& window, const PixelGrid& shown) const;
 
   /// Null without weights, and if all are the same. Throws Error if diagrams cannot take them.

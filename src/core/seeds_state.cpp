@@ -60,17 +60,11 @@ std::uint64_t next_number() {
   return ++last;
 }
 
-/// The pixels of a diagram of all of a grid, as far as kernels go round its periods.
-PixelGrid whole_of(const Grid& grid) {
-  const PixelGrid pixels{Window(grid)};
-  return grid.is_tilted_plane() ? pixels.without_periods() : pixels;
-}
-
 /// Whether a kernel places points on a grid, as far as all of them lie in it: one that a diagram shows whole,
 /// without images of seeds in the middle of pixels.
 bool kernels_place(const Device& device, const Grid& grid) {
   if (!places_points(device) || !fits_in_a_diagram(grid)) return false;
-  return has_voxels(grid) || grid.is_tilted() || kernels_go_round(grid, PixelGrid(Window(grid)));
+  return has_voxels(grid) || kernels_go_round(grid, PixelGrid(Window(grid)));
 }
 
 /// The voxels of points that lie in a grid of them.
@@ -220,7 +214,6 @@ void SeedsState::place(const Grid& grid, const Points& points) {
       place_from(room);
     }
   } else if (has_voxels(grid)) {
-    next.are_points = next.is_off_centre;
     upload_positions(next, voxels_of(next));
   } else {
     const std::shared_ptr<std::vector<Place>> places = list_of_places();
@@ -234,13 +227,12 @@ void SeedsState::place(const Grid& grid, const Points& points) {
 cl::Event SeedsState::place_by_kernel(SeedsFrame& next, const PointsThere& points, const Absence& absence,
                                       const cl::Buffer& found) {
   find_way_to(next);
-  next.are_points = next.is_off_centre || next.grid.is_tilted();
   const std::shared_ptr<cl::Buffer> positions = room_for_positions(points.count);
   std::shared_ptr<cl::Buffer> places;
-  if (next.are_points && next.is_off_centre)
+  if (next.is_off_centre)
     places = rooms_of_places_.take(
         device, (points.count + 1) * word * static_cast<std::size_t>(numbers_of_place(next.grid)));
-  next.whole = std::make_shared<const Placement>(Placement{whole_of(next.grid), positions, places});
+  next.whole = std::make_shared<const Placement>(Placement{PixelGrid(Window(next.grid)), positions, places});
   return place_on_grid(device, kernels, next.grid, options.outside, points, absence, *positions,
                        places ? *places : cl::Buffer(), found);
 }
@@ -250,9 +242,9 @@ void SeedsState::upload_positions(SeedsFrame& next, std::vector<std::uint32_t>&&
   const PixelGrid pixels{Window(next.grid)};
   const std::shared_ptr<cl::Buffer> positions = room_for_positions(next.size);
   const bool are_voxels = has_voxels(next.grid),
-             crowded = are_voxels && !next.are_points && are_crowded(pixels, packed);
+             crowded = are_voxels && !next.are_points() && are_crowded(pixels, packed);
   std::shared_ptr<const cl::Buffer> places;
-  if (are_voxels && next.are_points)
+  if (are_voxels && next.is_off_centre)
     places = std::make_shared<const cl::Buffer>(allocate_with(device, places_of(next), "the seeds"));
   next.whole = std::make_shared<const Placement>(Placement{pixels, positions, places, crowded});
   packed.push_back(PackedPositions(pixels).empty);
@@ -260,7 +252,6 @@ void SeedsState::upload_positions(SeedsFrame& next, std::vector<std::uint32_t>&&
 }
 
 void SeedsState::list_places(SeedsFrame& next, std::shared_ptr<const std::vector<Place>> places) {
-  next.are_points = next.is_off_centre || next.grid.is_tilted();
   next.listed = std::move(places);
   if (next.outside > 0 || !fits_in_a_diagram(next.grid) ||
       !kernels_go_round(next.grid, PixelGrid(Window(next.grid)))) {
@@ -387,7 +378,6 @@ void SeedsState::moved(const std::shared_ptr<cl::Buffer>& positions, double way)
   next.there = {};
   next.marks = nullptr;
   next.listed = nullptr;
-  next.are_points = false;
   next.is_off_centre = false;
   next.weights = nullptr;  // all were the same
   next.before = nullptr;

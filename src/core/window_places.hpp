@@ -25,9 +25,12 @@ struct Region {
 /// What repeats: the periods, 0 along an axis that is not periodic.
 struct Periods {
   explicit Periods(const Grid& grid)
-      : x(grid.x().is_periodic() ? grid.width() : 0), y(grid.y().is_periodic() ? grid.height() : 0) {}
+      : x(along(grid.x())), y(along(grid.y())), z(grid.is_volume() ? along(grid.z()) : 0) {}
 
-  std::int64_t x, y;
+  std::int64_t x, y, z;
+
+ private:
+  static std::int64_t along(const Axis& axis) { return axis.is_periodic() ? axis.pixels() : 0; }
 };
 
 /// Gauss's reduction of a lattice: two vectors that span it, such that no sum of them is shorter.
@@ -50,7 +53,7 @@ struct Images {
   explicit Images(const Grid& grid, std::int64_t units_of_pixel = 1)
       : x(units_of_pixel * Periods(grid).x),
         y(units_of_pixel * Periods(grid).y),
-        shift(grid.is_tilted() ? grid.shift() : 0),
+        shift(grid.is_tilted() ? grid.shifts().xy : 0),
         reach_x(x / 2),
         reach_y(shift == 0 ? y / 2 : reach_of_lattice()) {}
 

@@ -82,6 +82,8 @@ Report exact_diagram_by_places(Filling& filling, DiagramState& state) {
     return filling.commit(0, done, done);
   }
   const cl_int4 size = {{grid.width(), grid.height(), grid.depth(), static_cast<cl_int>(grid.periodic())}};
+  cl_int4 tilts;
+  std::copy_n(given.lattice.s + 4, 4, tilts.s);
   const cl_int4 bits = bits_of_bins(grid, count);
   const auto bins_along = [&](int axis) { return boxes_along(size.s[axis], 1 << bits.s[axis]); };
   const std::size_t rows = bins_along(1) * bins_along(2);
@@ -104,6 +106,7 @@ Report exact_diagram_by_places(Filling& filling, DiagramState& state) {
 
   if (filling.takes_places()) options.extent = Extent::fractions;
   options.weighted = weighted != nullptr;
+  options.tilted = grid.is_periodic() && state.window.grid().is_tilted();
   options.any_axes = !in_groups;
   const auto kernel = [&](const char* name, std::size_t items_of_group) -> Kernel& {
     return state.kernels
@@ -143,7 +146,7 @@ Report exact_diagram_by_places(Filling& filling, DiagramState& state) {
                            const auto&... more) {
       return kernel(name, items_of_group)
           .over_items(groups * items_of_group, of_starts, of_x, of_y, of_z, of_ids, of_lags, given.order,
-                      has_ids, bits, size, given.first, given.last, state.labels, more...);
+                      has_ids, bits, size, tilts, given.first, given.last, state.labels, more...);
     };
     const std::size_t items = device.tuning().patch_items;
     if (is_flat) {
@@ -202,7 +205,7 @@ Report exact_diagram_by_places(Filling& filling, DiagramState& state) {
       boxes_along(grid.width(), side) * boxes_along(grid.height(), side) * boxes_along(grid.depth(), side);
   const cl::Event end = kernel("label_regions", 1)
                             .over_items(items, starts, x, y, of_z, ids, of_lags, bounds, given.order, has_ids,
-                                        bits, size, given.first, given.last, state.labels);
+                                        bits, size, tilts, given.first, given.last, state.labels);
   return filling.commit(0, begin, end);
 }
 

@@ -20,6 +20,7 @@ void check_steps(const Plan& plan) {
 Report run_plan(const Seeds& seeds, Diagram& diagram, const Plan& plan, Metric metric, const char* method) {
   if (has_voxels(diagram.window().grid())) {
     Filling filling(seeds, diagram, metric, method);
+    refuse_seeds_beyond(filling.placement(), filling.seeds(), "flooding");
     check_steps(plan);
     return flood_volume(filling, Internal::state(diagram), plan);
   }

@@ -36,8 +36,8 @@ bool shows_marks(const Filling& filling) {
 bool labels_by_passes(const Filling& filling, const DiagramState& state) {
   const bool in_groups = state.device.tuning().shape == Shape::group;
   if (in_groups && filling.metric() != Metric::euclidean) return false;  // groups know squares alone
-  if (shows_marks(filling)) return true;
   if (filling.takes_places()) return false;
+  if (shows_marks(filling)) return true;
   const Placement& placement = filling.placement();
   // Of fewer seeds the ways by their index take a shorter time (measured).
   const std::size_t in_voxels = in_groups ? 128 : 24, in_pixels = in_groups ? 10 : 28, by_manhattan = 40;

@@ -69,7 +69,8 @@ struct AdjacencyState : Measured {
 std::pair<cl::Event, cl::Event> AdjacencyState::find(const MeasuredDiagram& diagram, std::size_t in_slots) {
   const Device& device = diagram.device;
   const cl_uint count = diagram.count();
-  const KernelOptions options = diagram.options_without_metric();
+  KernelOptions options = diagram.options_without_metric();
+  options.tilted = diagram.is_shifted();
   const Blocks blocks(device, diagram.grid);
   const SlotsOfCell slots(diagram, blocks);
   slot_count = in_slots > 0 ? in_slots : first_slots(std::size_t{slots.table} * count);
@@ -90,9 +91,9 @@ std::pair<cl::Event, cl::Event> AdjacencyState::find(const MeasuredDiagram& diag
   const auto mask = static_cast<cl_uint>(slot_count - 1);
   run("clear_cells", count, diagram.positions(), count, diagram.size(), blocks.bits(), cells, neighbours,
       perimeters);
-  blocks.run(kernels, kernel_file, "find_borders", options, labels, row_behind(diagram, labels, behind),
-             count, diagram.size(), blocks.bits(), cells, neighbours, perimeters, lists, mask, slots.table,
-             table, overflow);
+  blocks.run(kernels, kernel_file, "find_borders", options, labels,
+             rows_behind(diagram, kernels, labels, behind), count, diagram.size(), blocks.bits(), cells,
+             neighbours, perimeters, lists, mask, slots.table, table, overflow);
   const cl::Event joined =
       run("join_pairs", slot_count, cells, neighbours, pairs_of_cell, lists, mask, table, overflow);
   const cl::Event counted = run("count_pairs", count, count, pairs_of_cell, cells, neighbours, perimeters);

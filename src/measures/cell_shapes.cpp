@@ -40,13 +40,13 @@ Report cell_shapes(const Diagram& diagram, CellShapesResult& result) {
   const Blocks blocks(of.device, of.grid);
   const auto run_over_cells = [&](const char* name, const auto&... arguments) {
     return shapes.kernels.get(of.device, file, name, of.grid, of.options())
-        .over_items(count, of.positions(), count, of.periods(), of.size(), arguments...);
+        .over_items(count, of.positions(), count, of.lattice(), of.size(), arguments...);
   };
   const cl::Event cleared = run_over_cells("clear_shapes", blocks.bits(), shapes.home, shapes.home_boxes,
                                            shapes.other_boxes, shapes.distances, shapes.farthest);
   const cl::Event added =
       blocks.run(shapes.kernels, file, "add_shapes", of.options(), diagram.labels(), of.positions(), count,
-                 of.periods(), of.size(), blocks.bits(), shapes.home, shapes.home_boxes, shapes.other_boxes,
+                 of.lattice(), of.size(), blocks.bits(), shapes.home, shapes.home_boxes, shapes.other_boxes,
                  shapes.distances, shapes.farthest);
   const cl::Event joined = run_over_cells("join_shapes", shapes.home_boxes, shapes.other_boxes,
                                           shapes.distances, shapes.farthest, shapes.boxes);

@@ -60,8 +60,8 @@ Report cell_sums(const Diagram& diagram, CellSumsResult& result) {
     // Only in a tilted grid the metric says where a pixel lies.
     const KernelOptions of_places = of.window.grid().is_tilted() ? of.options() : options;
     blocks.run(sums.kernels, file, "add_periods", of_places, diagram.labels(), of.positions(), count,
-               of.periods(), of.size(), blocks.bits(), sums.periods);
-    last = run_over_cells("unwrap_sums", count, of.periods(), of.size(), sums.periods, sums.area, sums.sum_x,
+               of.lattice(), of.size(), blocks.bits(), sums.periods);
+    last = run_over_cells("unwrap_sums", count, of.lattice(), of.size(), sums.periods, sums.area, sums.sum_x,
                           sums.sum_y, sums.sum_z);
   }
   return count > 0 ? measuring.commit(std::move(of), cleared, last)
@@ -123,7 +123,7 @@ cl::Event sum_areas(CellStatisticsState& statistics, const MeasuredDiagram& of, 
   const std::size_t items = items_of(of.count());
   make_room(statistics.partial, of.device, items * sizeof(cl_ulong4));
   return statistics.kernels.get(of.device, cells_file, "sum_areas", of.grid, of.options_without_metric())
-      .over_items(items, of.positions(), of.count(), of.periods(), of.size(), areas,
+      .over_items(items, of.positions(), of.count(), of.lattice(), of.size(), areas,
                   static_cast<cl_uint>(cells_per_item), static_cast<cl_uint>(items), statistics.partial);
 }
 

@@ -71,7 +71,7 @@ Report distance_errors(const Diagram& diagram, const Diagram& exact, DistanceErr
   make_room(found.wrong, of.device, walk.groups * sizeof(cl_uint2));
   make_room(found.sums, of.device, walk.groups * sizeof(cl_long));
   make_room(found.greatest, of.device, walk.groups * sizeof(cl_float));
-  const cl::Event judged = compare(kernel, walk, diagram, exact, of.positions(), of.count(), of.periods(),
+  const cl::Event judged = compare(kernel, walk, diagram, exact, of.positions(), of.count(), of.lattice(),
                                    of.size(), found.wrong, found.sums, found.greatest);
   found.other = labels_of(exact).seeds;
   return measuring.commit(std::move(of), judged, judged);

@@ -43,7 +43,7 @@ Report distance_field(const Diagram& diagram, Field<std::int32_t>& field) {
   Measuring<FieldState<std::int32_t>> measuring(field);
   FieldState<std::int32_t>& state = measuring.state();
   MeasuredDiagram of = cells_of(diagram);
-  if (of.points && of.seeds->are_points) {
+  if (of.points && of.seeds->are_points()) {
     throw Error(
         "distances to points within their pixels, and in tilted grids, are no whole numbers; ask for a field "
         "of floats, or snap the seeds to pixels of a grid that is not tilted");
@@ -52,7 +52,7 @@ Report distance_field(const Diagram& diagram, Field<std::int32_t>& field) {
   make_room(state.too_long, of.device, sizeof(cl_uint));
   if (of.is_far()) fill(of.device, state.too_long, cl_uint{0}, 1);
   const cl::Event event = state.kernel(of, "integer_distances", of.options())
-                              .over_grid(diagram.labels(), of.positions(), of.count(), of.periods(),
+                              .over_grid(diagram.labels(), of.positions(), of.count(), of.lattice(),
                                          of.size(), state.values, state.too_long);
   return measuring.commit(std::move(of), event, event);
 }
@@ -74,7 +74,7 @@ Report distance_field(const Diagram& diagram, Field<float>& field) {
   }
   const cl::Event event =
       state.kernel(of, "float_distances", of.options())
-          .over_grid(diagram.labels(), of.positions(), of.count(), of.periods(), of.size(), state.values);
+          .over_grid(diagram.labels(), of.positions(), of.count(), of.lattice(), of.size(), state.values);
   return measuring.commit(std::move(of), event, event);
 }
 
@@ -84,7 +84,7 @@ Report border_mask(const Diagram& diagram, Field<std::uint8_t>& mask) {
   MeasuredDiagram of = labels_of(diagram);
   state.make_room_for(of);
   const cl::Event event =
-      state.kernel(of, "mark_borders", {}).over_grid(diagram.labels(), state.values, of.size(), of.shift());
+      state.kernel(of, "mark_borders", {}).over_grid(diagram.labels(), state.values, of.size(), of.shifts());
   return measuring.commit(std::move(of), event, event);
 }
 

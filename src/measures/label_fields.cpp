@@ -79,7 +79,7 @@ Report expand_labels(const Diagram& diagram, double distance, Field<std::uint32_
   }
   state.make_room_for(of);
   const cl::Event event = state.kernel(of, "expand_labels", of.options())
-                              .over_grid(diagram.labels(), of.positions(), of.count(), of.periods(),
+                              .over_grid(diagram.labels(), of.positions(), of.count(), of.lattice(),
                                          of.size(), greatest_compared(of, distance), state.values);
   return measuring.commit(std::move(of), event, event);
 }

@@ -51,20 +51,30 @@ void make_room(cl::Buffer& buffer, const Device& device, std::size_t bytes) {
   buffer = allocate(device, bytes, "the measures of a diagram");
 }
 
-int MeasuredDiagram::shift() const {
+cl_int4 MeasuredDiagram::shifts() const {
   const Grid& of = window.grid();
-  if (!of.is_tilted() || !grid.periodic_y()) return 0;
-  return static_cast<int>(std::llround(static_cast<double>(of.shift()) / fractions_of_pixel));
+  if (!of.is_tilted() || !grid.is_periodic()) return {};
+  const auto in_pixels_of = [](std::int64_t shift) {
+    return static_cast<cl_int>(std::floor(static_cast<double>(shift) / fractions_of_pixel + 0.5));
+  };
+  const Grid::Shifts exact = of.shifts();
+  return {{in_pixels_of(exact.xy), in_pixels_of(exact.xz), in_pixels_of(exact.yz), 0}};
 }
 
-const cl::Buffer& row_behind(const MeasuredDiagram& diagram, const cl::Buffer& labels, cl::Buffer& room) {
-  const int width = diagram.grid.width(), shift = (diagram.shift() + width) % width;
-  if (shift == 0) return labels;
-  const std::size_t size = sizeof(cl_uint), left = static_cast<std::size_t>(shift) * size,
-                    right = static_cast<std::size_t>(width - shift) * size;
-  make_room(room, diagram.device, left + right);
-  copy(diagram.device, labels, room, left, right, 0);
-  copy(diagram.device, labels, room, right, 0, left);
+bool MeasuredDiagram::is_shifted() const {
+  const cl_int4 all = shifts();
+  return all.s[0] != 0 || all.s[1] != 0 || all.s[2] != 0;
+}
+
+const cl::Buffer& rows_behind(const MeasuredDiagram& diagram, KernelSet& kernels, const cl::Buffer& labels,
+                              cl::Buffer& room) {
+  if (!diagram.is_shifted()) return labels;
+  const PixelGrid& grid = diagram.grid;
+  const int rows = grid.depth() + (grid.periodic_z() ? grid.height() : 0);
+  const std::size_t pixels = static_cast<std::size_t>(grid.width()) * static_cast<std::size_t>(rows);
+  make_room(room, diagram.device, pixels * word);
+  kernels.get(diagram.device, "measures/beyond.cl", "copy_rows_behind", grid)
+      .over_items(pixels, labels, diagram.size(), diagram.shifts(), static_cast<cl_uint>(pixels), room);
   return room;
 }
 

@@ -31,12 +31,14 @@ struct MeasuredDiagram {
   const cl::Buffer& positions() const { return points ? points->seeds : *placement->positions; }
   cl_uint count() const { return static_cast<cl_uint>(seeds->size); }
   cl_int4 size() const { return {{grid.width(), grid.height(), grid.depth(), 0}}; }
-  cl_int4 periods() const { return points ? points->periods : cl_int4{}; }
+  cl_int8 lattice() const { return points ? points->lattice : cl_int8{}; }
 
-  /// How many pixels further along x the first row follows the last one, where the window is periodic in y.
-  /// It is 0 unless the grid is tilted. Pixels of one row lie between those of the other, and the two that
-  /// share most of an edge have it.
-  int shift() const;
+  /// How many pixels further along x the first row follows the last one, where the window is periodic in y,
+  /// and how many along x and y the first slice the last one, where it is in z. All are 0 unless the grid is
+  /// tilted. Pixels of one row lie between those of the other, and the two that share most of an edge have
+  /// it.
+  cl_int4 shifts() const;
+  bool is_shifted() const;
 
   /// The unit of distances: so many are a pixel.
   int units_of_pixel() const { return extent() == Extent::fractions ? fractions_of_pixel : 1; }
@@ -63,9 +65,10 @@ struct MeasuredDiagram {
   }
 };
 
-/// The labels of the row that follows the last one of a diagram which is periodic in y: the first row, which
-/// in a tilted grid is copied to `room` as it lies there.
-const cl::Buffer& row_behind(const MeasuredDiagram& diagram, const cl::Buffer& labels, cl::Buffer& room);
+/// The labels of the rows that follow the last ones in a tilted grid (kernels/measures/beyond.cl), in `room`;
+/// the labels themselves, whose first row follows the last one of a plane, where nothing is shifted.
+const cl::Buffer& rows_behind(const MeasuredDiagram& diagram, KernelSet& kernels, const cl::Buffer& labels,
+                              cl::Buffer& room);
 
 /// A diagram for a measure that looks at labels alone.
 MeasuredDiagram labels_of(const Diagram& diagram);

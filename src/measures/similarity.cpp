@@ -62,7 +62,7 @@ Report similarity(const Diagram& a, const Diagram& b, double tolerance, Similari
     throw Error("the tolerance is " + std::to_string(tolerance) + "; it must be a number from 0");
   }
   const MeasuredDiagram of = cells_of_both(a, b);
-  return count(measuring, of, a, b, "count_distant", of.options(), of.positions(), of.count(), of.periods(),
+  return count(measuring, of, a, b, "count_distant", of.options(), of.positions(), of.count(), of.lattice(),
                of.size(), static_cast<cl_float>(tolerance));
 }
 

@@ -16,7 +16,7 @@ struct Corners {
   Corners(const MeasuredDiagram& diagram, int vector_width)
       : width(vector_width),
         columns(along(diagram.grid.width(), diagram.grid.periodic_x())),
-        rows(along(diagram.grid.height(), diagram.grid.periodic_y(), diagram.shift())) {}
+        rows(along(diagram.grid.height(), diagram.grid.periodic_y(), diagram.shifts().s[0])) {}
 
   int width;  // words of a chunk
   int columns, rows;
@@ -74,7 +74,7 @@ Report vertices(const Diagram& diagram, VerticesResult& result) {
   if (!corners.none()) {
     make_room(found.words, of.device, corners.words() * sizeof(cl_uint));
     last = kernel.over_items(corners.items(), diagram.labels(),
-                             row_behind(of, diagram.labels(), found.behind), of.grid.width(),
+                             rows_behind(of, found.kernels, diagram.labels(), found.behind), of.grid.width(),
                              of.grid.height(), corners.chunks_of_item(), found.words, found.count);
   }
   return measuring.commit(std::move(of), first, last);

@@ -81,10 +81,10 @@ class Density {
     make_room(energies_, of.device, blocks.count() * sizeof(cl_ulong));
     const char* const file = "motion/density.cl";
     const KernelOptions options = of.options_without_metric();
-    blocks.run(kernels_, file, "add_weights", options, diagram.labels(), of.positions(), count, of.periods(),
+    blocks.run(kernels_, file, "add_weights", options, diagram.labels(), of.positions(), count, of.lattice(),
                of.size(), blocks.bits(), pixels_, at_home_, elsewhere_, energies_);
     kernels_.get(of.device, file, "join_weights", of.grid, options)
-        .over_items(count, of.positions(), count, of.periods(), of.size(), at_home_, elsewhere_, weight_,
+        .over_items(count, of.positions(), count, of.lattice(), of.size(), at_home_, elsewhere_, weight_,
                     sum_x_, sum_y_, sum_z_);
     diagram.wait();
     // In two parts, for the sum of all blocks may need more than 64 bits.
@@ -255,7 +255,7 @@ double energy_of(const Diagram& diagram, Rounds& rounds) {
   const Blocks blocks(of.device, of.grid);
   make_room(rounds.partial, of.device, blocks.count() * sizeof(cl_ulong));
   blocks.run(rounds.kernels, "motion/relaxation.cl", "add_energy", of.options_without_metric(),
-             diagram.labels(), of.positions(), of.count(), of.periods(), of.size(), blocks.bits(),
+             diagram.labels(), of.positions(), of.count(), of.lattice(), of.size(), blocks.bits(),
              rounds.partial);
   diagram.wait();
   const auto energies = download<cl_ulong>(of.device, rounds.partial, blocks.count());

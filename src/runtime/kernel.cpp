@@ -45,7 +45,8 @@ std::string build_options(int vector_width, const PixelGrid& grid, const KernelO
          (options.extent >= Extent::far ? " -DVOROCL_FAR" : "") +
          (options.extent == Extent::fractions ? " -DVOROCL_FRACTIONS" : "") +
          (options.weighted ? " -DVOROCL_WEIGHTED" : "") + (options.flat ? " -DVOROCL_FLAT" : "") +
-         periodic_axes(grid, options.any_axes) + bits_of_volume(grid) + spacing_of_volume(grid);
+         (options.tilted ? " -DVOROCL_TILTED" : "") + periodic_axes(grid, options.any_axes) +
+         bits_of_volume(grid) + spacing_of_volume(grid);
 }
 
 std::size_t round_up(std::size_t count, std::size_t multiple) {

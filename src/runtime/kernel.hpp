@@ -34,10 +34,11 @@ struct KernelOptions {
   bool weighted = false;  // of exact diagrams: see kernels/exact/place.cl
   bool any_axes = false;  // kernels take the periodic axes as an argument, if there are any
   bool flat = false;      // of exact diagrams of voxels: there is one slice of them
+  bool tilted = false;    // of exact diagrams: see kernels/core/lattice.cl
 
   friend bool operator==(const KernelOptions& a, const KernelOptions& b) {
     return a.metric == b.metric && a.neighbourhood == b.neighbourhood && a.extent == b.extent &&
-           a.weighted == b.weighted && a.any_axes == b.any_axes && a.flat == b.flat;
+           a.weighted == b.weighted && a.any_axes == b.any_axes && a.flat == b.flat && a.tilted == b.tilted;
   }
 };
 

@@ -633,9 +633,12 @@ BOOST_AUTO_TEST_CASE(what_volumes_of_files_cannot_be_is_refused) {
   refuses(folder, dump + "--y-up", usage, {"--y-up is for planes"});
   refuses(folder, dump + "--bounds=0,0,-1,10,20,4", failure,
           {"frame 0", "whole periods: in z", "from -1 to 5"});
-  for (const std::string name : {"tilted.xyz", "sheared.xyz"})
-    refuses(folder, "render --trajectory " + name + volume, failure,
-            {name, "frame 0", "tilted", "--exact cuts"});
+  for (const std::string name : {"tilted.xyz", "sheared.xyz"}) {
+    refuses(folder, "render --trajectory " + name + volume + "--periodic x", failure,
+            {name, "frame 0", "tilted", "leave --periodic out"});
+    refuses(folder, "render --method jfa --trajectory " + name + volume, failure,
+            {name, "frame 0", "tilted", "flooding cannot take"});
+  }
   refuses(folder, "render --trajectory turned.xyz" + volume, failure,
           {"turned.xyz:2", "turned out of its plane"});
   refuses(folder, "render --trajectory flat.lammpstrj" + volume, failure, {"no z, which a volume needs"});

@@ -409,12 +409,12 @@ BOOST_AUTO_TEST_CASE(grids_know_their_tilt) {
   BOOST_TEST(plain.tilted(13).tilt() == 3);
   BOOST_TEST((plain.tilted(13) == plain.tilted(-7)));
   BOOST_TEST((plain.tilted(-5) == plain.tilted(5)));
-  BOOST_TEST(plain.tilted(5).shift() == 10 * parts);
-  BOOST_TEST(plain.tilted(-1.00001).shift() == -2 * parts);
+  BOOST_TEST(plain.tilted(5).shifts().xy == 10 * parts);
+  BOOST_TEST(plain.tilted(-1.00001).shifts().xy == -2 * parts);
   BOOST_TEST((plain.tilted(3).tilted(0) == plain));
   const Grid up(plain.x(), plain.y().reversed()), both(plain.x().reversed(), plain.y().reversed());
-  BOOST_TEST(up.tilted(3).shift() == -6 * parts);
-  BOOST_TEST(both.tilted(3).shift() == 6 * parts);
+  BOOST_TEST(up.tilted(3).shifts().xy == -6 * parts);
+  BOOST_TEST(both.tilted(3).shifts().xy == 6 * parts);
   for (const double bad : {std::nan(""), HUGE_VAL, -HUGE_VAL})
     check_error([&] { plain.tilted(bad); }, {"tilt", "finite"});
   for (const Axes axes : {Axes::none, Axes::x, Axes::y}) {

@@ -38,6 +38,10 @@ builds_of() { # KERNEL
     for places in -DVOROCL_DIMENSIONS=3 '' "$short_lists"; do  # with weights
       echo "1 -DVOROCL_EUCLIDEAN -DVOROCL_NEIGHBOURS=9 -DVOROCL_FRACTIONS -DVOROCL_WEIGHTED $planes $places"
     done
+    for places in "-DVOROCL_EUCLIDEAN -DVOROCL_DIMENSIONS=3 $volumes" "-DVOROCL_MANHATTAN $planes" \
+        "-DVOROCL_EUCLIDEAN -DVOROCL_WEIGHTED $planes $short_lists"; do  # tilted
+      echo "1 -DVOROCL_NEIGHBOURS=9 -DVOROCL_FRACTIONS -DVOROCL_TILTED $places"
+    done
     for places in '' -DVOROCL_FRACTIONS "-DVOROCL_FRACTIONS $short_lists"; do
       for axes in '' "$volumes" '-DVOROCL_SPACING_X=2 -DVOROCL_SPACING_Y=1 -DVOROCL_SPACING_Z=4' \
           "-DVOROCL_SPACING_X=2 -DVOROCL_SPACING_Y=3 -DVOROCL_SPACING_Z=1 $volumes $flat"; do
@@ -70,7 +74,7 @@ builds_of() { # KERNEL
       echo "$width -DVOROCL_EUCLIDEAN -DVOROCL_NEIGHBOURS=9 -DVOROCL_DIMENSIONS=3 -DVOROCL_SPACING_X=2 -DVOROCL_SPACING_Y=1 -DVOROCL_SPACING_Z=4"
     fi
     if [[ $kernel == kernels/measures/* ]]; then  # of windows that show a whole period, where seeds may lie outside
-      for axes in -DVOROCL_PERIODIC_X '-DVOROCL_PERIODIC_X -DVOROCL_PERIODIC_Y -DVOROCL_FRACTIONS'; do
+      for axes in -DVOROCL_PERIODIC_X '-DVOROCL_PERIODIC_X -DVOROCL_PERIODIC_Y -DVOROCL_FRACTIONS -DVOROCL_TILTED'; do
         echo "$width -DVOROCL_EUCLIDEAN -DVOROCL_NEIGHBOURS=9 -DVOROCL_FAR $axes"
       done
       for axes in '' '-DVOROCL_PERIODIC_X -DVOROCL_PERIODIC_Z -DVOROCL_SPACING_X=2 -DVOROCL_SPACING_Y=1 -DVOROCL_SPACING_Z=4'; do

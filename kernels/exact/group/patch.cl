@@ -13,13 +13,13 @@
 #define SCENE_PARAMETERS                                                                               \
   global const uint *restrict starts, global const int *restrict xs, global const int *restrict ys,    \
       global const int *restrict zs, global const uint *restrict ids, global const int *restrict lags, \
-      global const int2 *restrict order, int has_images, int4 bits, int4 size, int4 first, int4 last,  \
-      global uint *restrict labels
+      global const int2 *restrict order, int has_images, int4 bits, int4 size, int4 tilts, int4 first, \
+      int4 last, global uint *restrict labels
 #define PERIODIC_AXES (int4)(PERIODIC_X, PERIODIC_Y, PERIODIC_Z, 0)
-#define SCENE_OF_PARAMETERS                                                                                \
-  {                                                                                                        \
-    bins_of(bits, size), size, PERIODIC_AXES, starts, xs, ys, zs, ids, lags, 0, 0, has_images ? order : 0, \
-        first, last, labels                                                                                \
+#define SCENE_OF_PARAMETERS                                                                         \
+  {                                                                                                 \
+    bins_of(bits, size), size, PERIODIC_AXES, tilts, starts, xs, ys, zs, ids, lags, 0, 0,           \
+        has_images ? order : 0, first, last, labels                                                 \
   }
 
 // Of volumes those of points are stamped, whose voxels are cubes: dense seeds at centres are marks of a mask.
@@ -85,6 +85,8 @@ typedef struct {
   int first_row, rows, first_slice, slices;  // of bins, numbered through all images of the grid
   int first_image, images;                   // along x
 } area_t;
+// In a tilted grid the first row is one of each slice, and the first image one of each row; what follows them may be
+// more than there is.
 
 #define MOST_RANGES 64
 typedef struct {
@@ -113,14 +115,25 @@ static inline int number_of_slice(const scene_t* s, int z) {
   return IS_VOLUME ? number_of_line(z, s->size.z, s->bins.bits.z, s->bins.slices, PERIODIC_Z) : 0;
 }
 
+// How many rows a span of pixels has at most where it is moved by a tilt: each image of the grid that it begins or ends
+// in may add one that is no whole one.
+static inline int most_rows(const scene_t* scene, int length) {
+  return (length >> scene->bins.bits.y) + 2 + (PERIODIC_Y ? length / scene->size.y + 3 : 1);
+}
+
 static inline void set_area(local area_t* area, const scene_t* scene, cuboid_t c) {
   area->x = c.x, area->y = c.y, area->z = c.z;
-  area->first_row = number_of_row(scene, c.y.from);
-  area->rows = number_of_row(scene, c.y.to) + 1 - area->first_row;
   area->first_slice = number_of_slice(scene, c.z.from);
   area->slices = number_of_slice(scene, c.z.to) + 1 - area->first_slice;
+#if IS_TILTED
+  area->rows = most_rows(scene, c.y.to - c.y.from);
+  area->images = PERIODIC_X ? (c.x.to - c.x.from) / scene->size.x + 3 : 1;
+#else
+  area->first_row = number_of_row(scene, c.y.from);
+  area->rows = number_of_row(scene, c.y.to) + 1 - area->first_row;
   area->first_image = image_at(c.x.from, scene->size.x, PERIODIC_X);
   area->images = image_at(c.x.to, scene->size.x, PERIODIC_X) + 1 - area->first_image;
+#endif
 }
 static inline float way_outside(float at, float from, float to) {
   return fmax(fmax(from - at, at - to), 0.f);
@@ -146,27 +159,40 @@ static inline span_t span_in_balls(local const area_t* area, float north, float 
 // The range with a number: where it starts, and how many places it has.
 static inline uint2 range_of(const scene_t* scene, local const area_t* area, int number, int4* image) {
   const bins_t* const bins = &scene->bins;
-  const int line = number / area->images;
-  const int slice = IS_VOLUME ? line / area->rows : 0, row = line - slice * area->rows + area->first_row;
-  const int image_y = image_at(row, bins->rows, PERIODIC_Y), bin_y = row - image_y * bins->rows;
+  const int line = number / area->images, slice = IS_VOLUME ? line / area->rows : 0;
   const int image_z = image_at(slice + area->first_slice, bins->slices, PERIODIC_Z);
   const int bin_z = slice + area->first_slice - image_z * bins->slices;
+  int row = line - slice * area->rows;
+#if IS_TILTED
+  const span_t own = moved_back(area->y, tilt_of_slice(scene, image_z));
+  row += number_of_row(scene, own.from);
+  if (row > number_of_row(scene, own.to)) return (uint2)(0, 0);
+#else
+  row += area->first_row;
+#endif
+  const int image_y = image_at(row, bins->rows, PERIODIC_Y), bin_y = row - image_y * bins->rows;
   span_t along = area->x;
   if (area->has_balls) {
     // Places outside a window stand in the bins at its border.
-    const int y = (bin_y << bins->bits.y) + image_y * scene->size.y;
+    const int first_y = (bin_y << bins->bits.y) + image_y * scene->size.y;
+    const span_t y = moved_on(span_of(first_y, first_y + (1 << bins->bits.y)), tilt_of_slice(scene, image_z));
     const int z = (bin_z << bins->bits.z) + image_z * scene->size.z;
-    const float north = !PERIODIC_Y && bin_y == 0 ? -INFINITY : (float)(y * SPACING_Y);
-    const float south =
-        !PERIODIC_Y && bin_y == bins->rows - 1 ? INFINITY : (float)((y + (1 << bins->bits.y)) * SPACING_Y);
+    const float north = !PERIODIC_Y && bin_y == 0 ? -INFINITY : (float)(y.from * SPACING_Y);
+    const float south = !PERIODIC_Y && bin_y == bins->rows - 1 ? INFINITY : (float)(y.to * SPACING_Y);
     along = span_in_balls(area, north, south, (float)(z * SPACING_Z),
                           (float)((z + (1 << bins->bits.z)) * SPACING_Z));
     if (along.from > along.to) return (uint2)(0, 0);
   }
-  const int image_x = area->first_image + number % area->images;
+  int image_x = number % area->images;
+#if IS_TILTED
+  along = moved_back(along, tilt_of_row(scene, image_y, image_z));
+  image_x += image_at(along.from, scene->size.x, PERIODIC_X);
+#else
+  image_x += area->first_image;
+#endif
   const span_t x = of_image(along, image_x, scene->size.x, PERIODIC_X);
   if (x.from > x.to) return (uint2)(0, 0);
-  *image = (int4)(image_x, image_y, image_z, 0) * scene->size * (ONE * SPACINGS);
+  *image = way_to_image(scene, image_x, image_y, image_z);
   global const uint* const starts =
       scene->starts + (uint)(bin_z * bins->rows + bin_y) * (uint)(bins->columns + 1);
   const uint start = starts[x.from >> bins->bits.x];

@@ -232,7 +232,6 @@ void add_cells(CommandLine& line) {
     }
     check_method_options(command, {options->method}, options->method_options);
     snap_for(options->method, options->seeds);
-    if (options->is_volume()) return run(*options);
     if (!options->method.windows) options->seeds.keeps_inside = keeps_flooding_inside;
     run(*options);
   });

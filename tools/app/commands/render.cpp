@@ -145,7 +145,6 @@ void prepare_volume(const Command& command, RenderOptions& options) {
 void prepare_plane(RenderOptions& options) {
   if (options.picture.slice) throw UsageError("--slice is for volumes: give --size WxHxD");
   options.seeds.value_column = options.picture.color.column;
-  if (!options.method.windows) options.seeds.keeps_inside = keeps_flooding_inside;
 }
 
 }  // namespace
@@ -187,6 +186,7 @@ void add_render(CommandLine& line) {
     check_crs(options->seeds, {options->labels.path});
     snap_for(options->method, options->seeds);
     options->is_volume() ? prepare_volume(command, *options) : prepare_plane(*options);
+    if (!options->method.windows) options->seeds.keeps_inside = keeps_flooding_inside;
     run(*options);
   });
 }

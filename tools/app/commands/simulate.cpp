@@ -209,8 +209,6 @@ void prepare_planes(SimulateOptions& options) {
   if (options.output.picture.slice) throw UsageError("--slice is for volumes: give --size WxHxD");
   choose_snap(options);
   options.seeds.value_column = options.output.picture.color.column;
-  const bool floods = !options.method.windows || (options.compare_with && !options.compare_with->windows);
-  if (floods) options.seeds.keeps_inside = keeps_flooding_inside;
 }
 
 /// The cells of a trajectory without diagrams. Throws UsageError for options that say something of one.
@@ -277,6 +275,9 @@ void add_simulate(CommandLine& line) {
       throw UsageError("--every is for -o and for files of each frame, such as --cells: none is asked for");
     check_method_options(command, {options->method}, options->method_options);
     options->seeds.is_volume() ? prepare_volumes(command, *options) : prepare_planes(*options);
+    const auto& other = options->compare_with;
+    if (!options->method.windows || (other && !other->windows))
+      options->seeds.keeps_inside = keeps_flooding_inside;
     for (FileRequest& request : options->output.files)
       request = of_grid(request, options->seeds.is_volume() ? CellsOf::volumes : CellsOf::planes);
     run(*options);

@@ -105,7 +105,9 @@ struct Plane {
 Plane plane_of(const Grid& grid, const VolumeSlice& slice) {
   const auto width = static_cast<std::size_t>(grid.width()), at = static_cast<std::size_t>(slice.at);
   const std::size_t area = width * static_cast<std::size_t>(grid.height());
-  const bool x = grid.x().is_periodic(), y = grid.y().is_periodic(), z = grid.z().is_periodic();
+  // Of a tilted box the last row, or slice, does not lie on the first one: no line is drawn between them.
+  const bool x = grid.x().is_periodic(), y = grid.y().is_periodic() && grid.tilt() == 0,
+             z = grid.z().is_periodic() && grid.tilt_xz() == 0 && grid.tilt_yz() == 0;
   if (slice.axis == 'x') return {{grid.height(), grid.depth()}, at, width, area, y, z};
   if (slice.axis == 'y') return {{grid.width(), grid.depth()}, at * width, 1, area, x, z};
   return {{grid.width(), grid.height()}, at * area, 1, width, x, y};
@@ -192,7 +194,7 @@ cv::Mat Painter::draw(Measures& measures, const ColumnValues& values, const std:
 cv::Mat Painter::draw_plane(Measures& measures, const ColumnValues& values, const std::string& stamp) {
   const View& view = measures.view();
   const Size size = view.size();
-  // Of a tilted box the last row does not lie on the first one, so that no line is drawn between them.
+  // As plane_of() has it.
   const Window& window = view.window;
   const Axes axes = window.grid().is_tilted() && has_x(window.periodic()) ? Axes::x : window.periodic();
   const int enlargement = options_.enlargement;

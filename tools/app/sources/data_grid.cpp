@@ -212,12 +212,10 @@ Grid box_of_frame(const SeedOptions& options, const Frame& frame, const std::vec
   Grid grid =
       with_voxels(options, grid_of(options, sides_of_frame(options, frame, points, all, periodic), periodic));
   if (frame.box && (frame.box->tilt != 0 || frame.box->xz != 0 || frame.box->yz != 0)) {
-    if (options.size)
-      throw Error("the box is tilted, which diagrams of voxels do not know; --exact cuts its cells");
-    if (periodic != of_file) {
+    if (!options.keeps_inside.empty()) throw Error("the box is tilted, which " + options.keeps_inside);
+    if (periodic != of_file)
       throw Error(
-          "the box is tilted: --exact cuts it as the file says that it is periodic, so leave --periodic out");
-    }
+          "the box is tilted and repeats as the file says that it is periodic, so leave --periodic out");
     grid = grid.tilted(frame.box->tilt, frame.box->xz, frame.box->yz);
   }
   check_inside(points, frame.ids, grid);
