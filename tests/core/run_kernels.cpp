@@ -18,6 +18,7 @@
 #include "runtime/program.hpp"
 #include "seed_tree.hpp"
 #include "snapped_seeds.hpp"
+#include "tilted_box.hpp"
 #include "true_positions.hpp"
 #include "volume_points.hpp"
 #include "vorocl/vorocl.hpp"
@@ -327,6 +328,31 @@ void make_volumes_of_points(const Device& device) {
   }
 }
 
+/// Points in boxes that are tilted, with few seeds and with crowds.
+void make_tilted_volumes(const Device& device) {
+  for (const TiltedBox& box : {TiltedBox{{17, 9, 6}, Axes::xyz, 5 * parts + 7, -3 * parts, 4 * parts + 1},
+                               TiltedBox{{12, 5, 7}, Axes::xz, 0, 4 * parts + 9, 0}}) {
+    std::vector<Spot> seeds;
+    for (std::int64_t i = 0; i < 60; ++i) {
+      const std::int64_t x = box.sides[0] * parts, y = box.sides[1] * parts, z = box.sides[2] * parts;
+      seeds.push_back(i % 3 == 0 ? Spot{x / 3, y / 2, i}
+                                 : Spot{i * 7919 * 31 % x, i * 104729 % y, i * 1299709 % z});
+    }
+    const Seeds points(device, box.grid(), points_at(seeds));
+    Diagram diagram(device, box.grid()),
+        by_short_lists(with_lists(device, ListLength::two_entries), box.grid());
+    const Labels expected = labels_by_definition(box, seeds);
+    for (Diagram* const each : {&diagram, &by_short_lists}) {
+      exact_diagram(points, *each);
+      expect(each->read(), expected, "points in tilted volumes");
+    }
+    Field<float> distances;
+    distance_field(diagram, distances);
+    measure_volume(diagram);
+    device.finish();
+  }
+}
+
 void check_transform(const Grid& grid, double length, const std::vector<std::uint8_t>& image,
                      const std::vector<float>& distances) {
   const auto width = static_cast<std::size_t>(grid.width()), height = static_cast<std::size_t>(grid.height());
@@ -551,8 +577,10 @@ int main() {
   measure_many_cells(device, Grid(13, 9));
   measure_islands(device);
   const Device for_volumes = device.with_tuning({4, 4, 2, Shape::vector, 32});
-  for (const Shape shape : {Shape::group, Shape::vector})
+  for (const Shape shape : {Shape::group, Shape::vector}) {
     make_volumes_of_points(device.with_tuning({4, 4, 2, shape, 32}));
+    make_tilted_volumes(device.with_tuning({4, 4, 2, shape, 32}));
+  }
   make_volumes(for_volumes, Grid(20, 12, 9));
   make_volumes(for_volumes, Grid(Axis(18).periodic(), Axis(11).periodic().spaced(2), Axis(5).periodic()));
   cut_exact_cells(device);
