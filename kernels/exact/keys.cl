@@ -358,13 +358,18 @@ NOINLINE static bool label_by_keys(const scene_t* scene, const list_t* list, int
 //
 // Keys without ranks, which take as many of the low bits as there is room for. Of eight places at a time the
 // least key is taken. Where the first eight and the last eight stand that have the least key of all is kept, and
-// which of their places have it is looked up at the end. Several places that do are compared in 64 bits.
+// which of their places have it is looked up at the end. Of several
+// places that do the tie rule decides by the Manhattan metric, whose keys are whole distances; else they are compared in
+// 64 bits.
 
 // Keys are those of the origin less so much per pixel; by the Manhattan metric they are distances.
 typedef struct {
   uint of_first;
   uint more;  // low bits
-#if !IS_MANHATTAN
+#if IS_MANHATTAN
+  int own_y[LIST_ROOM], own_x[LIST_ROOM];  // what orders seeds
+  uint id[LIST_ROOM];
+#else
   uint high[LIST_ROOM];
   uint x[LIST_ROOM], y[LIST_ROOM], z[LIST_ROOM];  // what keys lose from pixel to pixel
 #endif
@@ -384,6 +389,43 @@ static inline int8 keys_at(const list_t* list, const keys_t* keys, int k, int x,
 #endif
 }
 
+// Which of the places wins that have the key at a pixel of a box, which is so far from the origin; they stand in the
+// eights from the first to the last. By the Manhattan metric there may be hundreds, as near as each other.
+static inline uint first_of_ties(const scene_t* scene, const list_t* list, const keys_t* keys, int count, box_t b,
+                                 int first, int last, int key, int x, int y, int z) {
+#if IS_MANHATTAN
+  (void)b;
+  int8 best_y = INT_MAX, best_x = INT_MAX;
+  uint8 best_id = UINT_MAX, place = NO_PLACE;
+  for (int k = first; k <= last; k += 8) {
+    const int8 own_y = vload8(0, keys->own_y + k), own_x = vload8(0, keys->own_x + k);
+    const uint8 id = vload8(0, keys->id + k);
+    int8 wins = (own_x < best_x) | ((own_x == best_x) & (id < best_id));
+    wins = (own_y < best_y) | ((own_y == best_y) & wins);
+    wins &= (keys_at(list, keys, k, x, y, z) == key) & (EIGHT + k < count);
+    best_y = select(best_y, own_y, wins), best_x = select(best_x, own_x, wins);
+    best_id = select(best_id, id, as_uint8(wins)), place = select(place, vload8(0, list->at + k), as_uint8(wins));
+  }
+  uint lane[8], best = NO_PLACE;
+  store_uints(place, lane);
+  for (int i = 0; i < 8; ++i) {
+    if (lane[i] == NO_PLACE || lane[i] == best) continue;
+    if (best == NO_PLACE || comes_first(scene, lane[i], best)) best = lane[i];
+  }
+#else
+  uint best = NO_PLACE;
+  for (int k = first; k <= last; k += 8) {
+    uint mask = mask_of((keys_at(list, keys, k, x, y, z) == key) & (EIGHT + k < count));
+    for (; mask != 0; mask &= mask - 1) {
+      const uint at = list->at[k + (int)lowest_bit(mask)];
+      const int4 pixel = (int4)(b.x + b.sx / 2 + x, b.y + b.sy / 2 + y, b.z + b.sz / 2 + z, 0);
+      if (best == NO_PLACE || is_nearer(scene, pixel.x, pixel.y, pixel.z, at, best)) best = at;
+    }
+  }
+#endif
+  return best;
+}
+
 // Finds the places that win at the pixels of a box of eight columns, pixel by pixel; false if keys do not
 // hold them.
 #define ROWS 8  // of a part, at once
@@ -394,6 +436,10 @@ NOINLINE static bool find_by_keys(const scene_t* scene, const list_t* list, int 
   keys_t keys;
 #if IS_MANHATTAN
   keys.of_first = abs(list->x[0] - HALF) + abs(list->y[0] - HALF), keys.more = 0;
+  for (int i = 0; i < count; ++i) {
+    const uint at = list->at[i];
+    keys.own_y[i] = own_y(scene, at), keys.own_x[i] = own_x(scene, at), keys.id[i] = scene->ids[at];
+  }
 #else
   keys.more = (uint)min(ilogb(MOST_SPREAD / spread), LOW_BITS);
   for (int k = 0; k < count; k += 8) {
@@ -453,17 +499,8 @@ NOINLINE static bool find_by_keys(const scene_t* scene, const list_t* list, int 
       int lane[8], from[8], to[8];
       store_ints(least[r], lane), store_ints(first[r], from), store_ints(last[r], to);
       for (int i = 0; i < 8; ++i) {
-        const int py = y + r % ROWS_OF_SLICE, pz = z + r / ROWS_OF_SLICE;
-        uint best = NO_PLACE;
-        for (int k = from[i]; k <= to[i]; k += 8) {
-          uint mask = mask_of((keys_at(list, &keys, k, i - 4, py, pz) == lane[i]) & (EIGHT + k < count));
-          for (; mask != 0; mask &= mask - 1) {
-            const uint at = list->at[k + (int)lowest_bit(mask)];
-            const int4 pixel = (int4)(b.x + i, b.y + b.sy / 2 + py, b.z + b.sz / 2 + pz, 0);
-            if (best == NO_PLACE || is_nearer(scene, pixel.x, pixel.y, pixel.z, at, best)) best = at;
-          }
-        }
-        found[(row + r) * 8 + i] = best;
+        found[(row + r) * 8 + i] = first_of_ties(scene, list, &keys, count, b, from[i], to[i], lane[i], i - 4,
+                                                 y + r % ROWS_OF_SLICE, z + r / ROWS_OF_SLICE);
       }
     }
   }

@@ -462,7 +462,13 @@ NOINLINE static int drop_by_firsts(const scene_t* scene, list_t* list, int count
       const int8 along_x = min(as_int8(absolute(p.x + sx)) - west, as_int8(absolute(p.x - sx)) - east);
       const int8 along_y = -min(as_int8(absolute(p.y + sy)) - north, as_int8(absolute(p.y - sy)) - south);
       uint stays = mask_of((along_x <= along_y) & (EIGHT + k < count));
-      for (uint ties = stays & mask_of(along_x == along_y); ties != 0; ties &= ties - 1) {
+      uint ties = stays & mask_of(along_x == along_y);
+      if (!has_images_of(scene)) {  // places are in the order of the tie rule
+        const uint later = mask_of((p.y > rival.y) | ((p.y == rival.y) & (p.x > rival.x)));
+        stays &= ~(ties & later);
+        ties &= mask_of((p.y == rival.y) & (p.x == rival.x));
+      }
+      for (; ties != 0; ties &= ties - 1) {
         const uint other = list->at[k + (int)lowest_bit(ties)];
         if (other != rival.at && comes_first(scene, rival.at, other)) stays ^= ties & (0 - ties);
       }
