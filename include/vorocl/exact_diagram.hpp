@@ -35,9 +35,10 @@ struct ExactOptions {
 /// lie outside it, each seed and image that may own a pixel costs a place in the list.
 ///
 /// In a tilted grid (Grid::tilted()) all seeds are taken as points, snapped ones at the centres of their
-/// pixels. Where the window is a part of it the host places their images whenever they have moved, and in a
-/// flat box looks at as many of them as rows of images may reach the window; such a window's grid may have
-/// sides of 131,072 pixels, else this throws Error.
+/// pixels. Where the window is a part of it, or all of a plane that is longer than 32,000 pixels or very flat
+/// (its length squared more than some 2^20 times its height, at a tilt of half a period), the host places
+/// their images whenever they have moved, and looks at as many as rows of images may reach the window: sides
+/// of at most 131,072 pixels then, else this throws Error. Volumes as flat throw Error.
 ///
 /// By great circles (Metric::great_circle) the grid's x are longitudes and its y latitudes, both in degrees.
 /// It may show a part of the globe, or go round it: as a periodic axis of 360 degrees, so that cells touch

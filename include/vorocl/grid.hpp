@@ -189,7 +189,7 @@ class VOROCL_API Grid {
   /// periodic.
   ///
   /// Exact diagrams, their measures and exact cells know tilted grids. Methods that flood, motions at random,
-  /// relaxation, masks and tiles throw Error.
+  /// relaxation, distance transforms and tiles throw Error.
   Grid tilted(double tilt, double xz = 0, double yz = 0) const;
 
   const Axis& x() const { return x_; }
@@ -255,7 +255,7 @@ class VOROCL_API Grid {
 ///
 /// Along a periodic axis a window may begin anywhere and cross the end of the period; a window that is longer
 /// than the period shows each pixel at most once, where the grid has it, and no labels beside. Of a tilted
-/// grid a window shows the plane, whose rows of pixels beyond the grid lie between pixels of the grid.
+/// plane a window shows any part, whose rows of pixels beyond the grid lie between pixels of the grid.
 /// Diagrams of volumes, and of grids with an axis that is spaced, take the window that shows all.
 class VOROCL_API Window {
  public:
@@ -307,7 +307,7 @@ class VOROCL_API Window {
   }
 
   /// The axes along which it shows exactly one period: its cells reach across its border. In a plane z is
-  /// none of them. Of a tilted grid x and y or none: if the window has all rows of the grid, from the first
+  /// none of them. Of a tilted plane x and y or none: if the window has all rows of the grid, from the first
   /// one on, and all columns.
   Axes periodic() const {
     if (grid_.is_tilted_plane()) {

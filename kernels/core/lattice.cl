@@ -1,7 +1,7 @@
 // TILTED GRIDS, whose seeds have fractions. What is one period of y further down lies `xy` units further along x, and
-// what is one period of z further `xz` and `yz` units along x and y. The tilts come as (xy, xz, yz, reach): along an
-// axis the nearest image of a place is no more than `reach` pixels away. Kernels that label, or look at labels across
-// the ends of axes, have the build option VOROCL_TILTED. A LATTICE comes as the periods in pixels, 0 along an axis
+// what is one period of z further `xz` and `yz` units along x and y. The tilts come as (xy, xz, yz, reach): along no
+// axis is the nearest image of a place farther than `reach` units of the spacing, of whole pixels. Kernels that label,
+// and those that find the pairs of cells, have the build option VOROCL_TILTED. A LATTICE comes as the periods in pixels, 0 along an axis
 // without one, then 0, and the tilts.
 
 #ifndef VOROCL_LATTICE
@@ -17,6 +17,7 @@
 #define TILT_XY(of) ((of)->tilts.x)
 #define TILT_XZ(of) ((of)->tilts.y)
 #define TILT_YZ(of) ((of)->tilts.z)
+#define REACH_OF_TILTS(of) ((of)->tilts.w)
 
 // What repeats, in units of the spacing: the periods, 0 along an axis without one, and the tilts.
 typedef struct {

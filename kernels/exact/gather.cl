@@ -5,27 +5,43 @@
 
 #include "exact/walk.cl"
 
-// From a centre to the nearest image of a place. In a tilted grid to one that is near: the nearest one along z, of such
-// along y, and of such along x.
-static inline int4 to_near_image(const scene_t* scene, uint at, int4 centre) {
+#if IS_TILTED
+static inline int turns_to_near(int way, int period, int periodic) {
+  return periodic ? -(int)rint((float)way / (float)period) : 0;
+}
+#endif
+// From a centre to the nearest image of a place; in a tilted grid as near as floats tell.
+static inline int4 to_nearest_image(const scene_t* scene, uint at, int4 centre) {
   const int4 period = scene->size * (ONE * SPACINGS);
-  int x = scene->x[at] - centre.x, y = scene->y[at] - centre.y;
-  const int z = IS_VOLUME ? scene->z[at] - centre.z : 0;
-  const int near_z = IS_VOLUME ? shorter_way(z, period.z, IS_PERIODIC(scene, z)) : 0;
+  const int x = scene->x[at] - centre.x, y = scene->y[at] - centre.y, z = IS_VOLUME ? scene->z[at] - centre.z : 0;
 #if IS_TILTED
-  const int turns_z = (near_z > z) - (near_z < z);
-  y += turns_z * TILT_YZ(scene) * SPACING_Y, x += turns_z * TILT_XZ(scene) * SPACING_X;
+  // Slices of images, and rows of each, from the nearest on, until they are too far.
+  const int own_z = turns_to_near(z, period.z, IS_PERIODIC(scene, z)), near_z = z + own_z * period.z;
+  int4 nearest = 0;
+  float least = INFINITY;
+  for (int i = 0; i == 0 || IS_PERIODIC(scene, z); ++i) {
+    const int turns_z = own_z + turns_outward(near_z, i), along_z = z + turns_z * period.z;
+    if (distance_of((float4)(0, 0, (float)along_z, 0)) >= least) break;
+    const int in_slice = y + tilt_of_slice(scene, turns_z) * SPACING_Y;
+    const int own_y = turns_to_near(in_slice, period.y, IS_PERIODIC(scene, y)), near_y = in_slice + own_y * period.y;
+    for (int j = 0; j == 0 || IS_PERIODIC(scene, y); ++j) {
+      const int turns_y = own_y + turns_outward(near_y, j), along_y = in_slice + turns_y * period.y;
+      if (distance_of((float4)(0, (float)along_y, (float)along_z, 0)) >= least) break;
+      const int in_row = x + tilt_of_row(scene, turns_y, turns_z) * SPACING_X;
+      const int along_x = in_row + turns_to_near(in_row, period.x, IS_PERIODIC(scene, x)) * period.x;
+      const float distance = distance_of((float4)((float)along_x, (float)along_y, (float)along_z, 0));
+      if (distance < least) least = distance, nearest = (int4)(along_x, along_y, along_z, 0);
+    }
+  }
+  return nearest;
+#else
+  return (int4)(shorter_way(x, period.x, IS_PERIODIC(scene, x)), shorter_way(y, period.y, IS_PERIODIC(scene, y)),
+                IS_VOLUME ? shorter_way(z, period.z, IS_PERIODIC(scene, z)) : 0, 0);
 #endif
-  const int near_y = shorter_way(y, period.y, IS_PERIODIC(scene, y));
-#if IS_TILTED
-  x += ((near_y > y) - (near_y < y)) * TILT_XY(scene) * SPACING_X;
-  x = shorter_way(x, period.x, IS_PERIODIC(scene, x));
-#endif
-  return (int4)(shorter_way(x, period.x, IS_PERIODIC(scene, x)), near_y, near_z, 0);
 }
 // w: its lag, in units squared.
 static inline float4 way_to(const scene_t* scene, uint at, int4 centre) {
-  const float4 way = convert_float4(to_near_image(scene, at, centre));
+  const float4 way = convert_float4(to_nearest_image(scene, at, centre));
   return (float4)(way.xyz, IS_WEIGHTED ? (float)scene->lags[at] * LAG_UNIT : 0);
 }
 
@@ -227,7 +243,7 @@ NOINLINE static uint nearest_at(const scene_t* scene, box_t b, const list_t* lis
 
 // Whether a place is nearer to a pixel than another one.
 static inline long distance_to(const scene_t* scene, int4 centre, uint at) {
-  int4 way = to_near_image(scene, at, centre);
+  int4 way = to_nearest_image(scene, at, centre);
 #if IS_TILTED
   const int4 sides = scene->size * (int4)(IS_PERIODIC(scene, x), IS_PERIODIC(scene, y), IS_PERIODIC(scene, z), 0);
   const lattice_t lattice = lattice_of(sides.x, sides.y, sides.z, scene->tilts, ONE);

@@ -358,9 +358,8 @@ NOINLINE static bool label_by_keys(const scene_t* scene, const list_t* list, int
 //
 // Keys without ranks, which take as many of the low bits as there is room for. Of eight places at a time the
 // least key is taken. Where the first eight and the last eight stand that have the least key of all is kept, and
-// which of their places have it is looked up at the end. Of several
-// places that do the tie rule decides by the Manhattan metric, whose keys are whole distances; else they are compared in
-// 64 bits.
+// which of their places have it is looked up at the end. Of several that do the tie rule decides by the Manhattan
+// metric, whose keys are whole distances; else they are compared in 64 bits.
 
 // Keys are those of the origin less so much per pixel; by the Manhattan metric they are distances.
 typedef struct {

@@ -48,13 +48,26 @@ typedef struct {
   blocks_t blocks;
 } lists_t;
 
+// A side of a box, halved while its second half lies beyond the grid: in a flat periodic one there are images of all
+// places. It stays a power of two, whole vectors of columns or of rows.
+static inline int side_in_grid(int at, int side, int size, int least) {
+  while (side > least && at + side / 2 >= size) side /= 2;
+  return side;
+}
+static inline box_t cut_to_grid(const scene_t* scene, box_t b) {
+  return box_at(b.x, b.y, b.z, side_in_grid(b.x, b.sx, scene->size.x, PART_X),
+                side_in_grid(b.y, b.sy, scene->size.y, PART_Y),
+                IS_VOLUME ? side_in_grid(b.z, b.sz, scene->size.z, 2) : 1);
+}
+
 // Child i of a box, by x, y, z.
-static inline box_t child_of(box_t b, int i, int sx, int sy, int sz) {
+static inline box_t child_of(const scene_t* scene, box_t b, int i, int sx, int sy, int sz) {
+  sx = min(sx, b.sx), sy = min(sy, b.sy), sz = min(sz, b.sz);
   const int nx = b.sx / sx, ny = b.sy / sy;
-  return box_at(b.x + i % nx * sx, b.y + i / nx % ny * sy, b.z + i / nx / ny * sz, sx, sy, sz);
+  return cut_to_grid(scene, box_at(b.x + i % nx * sx, b.y + i / nx % ny * sy, b.z + i / nx / ny * sz, sx, sy, sz));
 }
 static inline int children_of(box_t b, int sx, int sy, int sz) {
-  return (b.sx / sx) * (b.sy / sy) * (b.sz / sz);
+  return max(b.sx / sx, 1) * max(b.sy / sy, 1) * max(b.sz / sz, 1);
 }
 
 // Copies to `list` what may win in a box within another one.
@@ -104,7 +117,7 @@ NOINLINE static void label_crowd(const scene_t* scene, box_t part, float4 place,
     is_all = gather(scene, part, place, gathering, list, &count);
     if (count == 0) continue;
     find_winners(scene, list, count, part, others);
-    for (int i = 0; i < PIXELS_OF_PART; ++i) {
+    for (int i = 0; i < part.sx * part.sy * part.sz; ++i) {
       const int x = part.x + i % 8, y = part.y + i / 8 % part.sy, z = part.z + i / 8 / part.sy;
       if (is_nearer(scene, x, y, z, others[i], winners[i])) winners[i] = others[i];
     }
@@ -116,7 +129,7 @@ NOINLINE static void label_box(const scene_t* scene, box_t box, const list_t* li
   if (label_if_one(scene, list, count, box)) return;
   if (count <= MOST_OF_BOX && label_by_keys(scene, list, count, box)) return;
   for (int i = 0; i < children_of(box, PART_X, PART_Y, PART_Z); ++i) {
-    const box_t part = child_of(box, i, PART_X, PART_Y, PART_Z);
+    const box_t part = child_of(scene, box, i, PART_X, PART_Y, PART_Z);
     if (!is_in_grid(scene, part)) continue;
     const int some = narrow(scene, list, count, box, part, &lists->of_part);
     label_part(scene, part, &lists->of_part, some);
@@ -127,7 +140,7 @@ NOINLINE static void label_tile(const scene_t* scene, box_t tile, const list_t* 
   if (label_if_one(scene, list, count, tile)) return;
   const int side = count > MANY_OF_TILE ? BOX_X / 2 : BOX_X;
   for (int i = 0; i < children_of(tile, side, BOX_Y, BOX_Z); ++i) {
-    const box_t box = child_of(tile, i, side, BOX_Y, BOX_Z);
+    const box_t box = child_of(scene, tile, i, side, BOX_Y, BOX_Z);
     if (!is_in_grid(scene, box)) continue;
     const int some = narrow(scene, list, count, tile, box, &lists->of_box);
     label_box(scene, box, &lists->of_box, some, lists);
@@ -137,7 +150,7 @@ NOINLINE static void label_region(const scene_t* scene, box_t region, const list
                                   lists_t* lists) {
   if (label_if_one(scene, list, count, region)) return;
   for (int i = 0; i < children_of(region, TILE, TILE, TILE_Z); ++i) {
-    const box_t tile = child_of(region, i, TILE, TILE, TILE_Z);
+    const box_t tile = child_of(scene, region, i, TILE, TILE, TILE_Z);
     if (!is_in_grid(scene, tile)) continue;
     const int some = narrow(scene, list, count, region, tile, &lists->of_tile);
     label_tile(scene, tile, &lists->of_tile, some, lists);
@@ -221,14 +234,14 @@ static inline bool is_empty(const scene_t* scene, box_t b) { return around(scene
 
 NOINLINE static void label_by_lists(const scene_t* scene, box_t outer, lists_t* lists) {
   for (int i = 0; i < children_of(outer, TILE, TILE, TILE_Z); ++i) {
-    const box_t tile = child_of(outer, i, TILE, TILE, TILE_Z);
+    const box_t tile = child_of(scene, outer, i, TILE, TILE, TILE_Z);
     if (!is_in_grid(scene, tile)) continue;
     uint near = NO_PLACE;
     source_t source = THE_INDEX;
     const bool has_few = around(scene, tile, false).places < FEW_OF_TILE;
     if (has_few && label_alone(scene, tile, A_TILE, &near, THE_INDEX, lists)) continue;
     for (int j = 0; j < children_of(tile, BOX_X, BOX_Y, BOX_Z); ++j) {
-      const box_t box = child_of(tile, j, BOX_X, BOX_Y, BOX_Z);
+      const box_t box = child_of(scene, tile, j, BOX_X, BOX_Y, BOX_Z);
       if (!is_in_grid(scene, box)) continue;
       // Where the box has places itself bins are small enough.
       const bool is_listed = source.blocks && is_empty(scene, box);
@@ -240,7 +253,7 @@ NOINLINE static void label_by_lists(const scene_t* scene, box_t outer, lists_t* 
         of_box = list_blocks(scene, box, near, source, &lists->blocks);
       }
       for (int k = 0; k < children_of(box, PART_X, PART_Y, PART_Z); ++k) {
-        const box_t part = child_of(box, k, PART_X, PART_Y, PART_Z);
+        const box_t part = child_of(scene, box, k, PART_X, PART_Y, PART_Z);
         if (is_in_grid(scene, part)) label_alone(scene, part, A_PART, &near, of_box, lists);
       }
     }
@@ -264,7 +277,7 @@ static inline bool label_if_dense(const scene_t* scene, box_t b, stamps_t* stamp
   const int side = stamp_side(there);
   if (side == 0) return false;
   for (int i = 0; !IS_VOLUME && i < children_of(b, BOX_X, BOX_Y, 1); ++i) {
-    const box_t box = child_of(b, i, BOX_X, BOX_Y, 1);
+    const box_t box = child_of(scene, b, i, BOX_X, BOX_Y, 1);
     if (!is_in_grid(scene, box)) continue;
     const around_t of_box = around(scene, box, false);
     if ((ulong)of_box.places * there.pixels * 4 < (ulong)there.places * of_box.pixels) return false;
@@ -298,15 +311,16 @@ kernel void label_regions(global const uint* restrict starts, global const int* 
                           int has_images, int4 bits, int4 size, int4 tilts, int4 first, int4 last,
                           global uint* restrict labels) {
   const int item = (int)get_global_id(0), columns = (size.x - 1) / SIDE + 1, rows = (size.y - 1) / SIDE + 1;
-  const box_t own = box_at(item % columns * SIDE, item / columns % rows * SIDE, item / columns / rows * SIDE,
+  const box_t whole = box_at(item % columns * SIDE, item / columns % rows * SIDE, item / columns / rows * SIDE,
                            SIDE, SIDE, IS_VOLUME ? SIDE : 1);
   const bins_t bins = bins_of(bits, size);
   global const int* const of_places = IS_WEIGHTED ? lags + bins.rows * bins.slices : lags;
   const scene_t scene = {bins, size, AXES_OF(size), tilts, starts, xs, ys, zs, ids, of_places,
                          lags, bounds, has_images ? order : 0, first, last, labels};
-  if (!is_in_grid(&scene, own)) return;
-  const box_t region =
-      box_at(own.x / REGION * REGION, own.y / REGION * REGION, own.z, REGION, REGION, REGION_Z);
+  if (!is_in_grid(&scene, whole)) return;
+  const box_t own = cut_to_grid(&scene, whole);
+  const box_t region = cut_to_grid(
+      &scene, box_at(own.x / REGION * REGION, own.y / REGION * REGION, own.z, REGION, REGION, REGION_Z));
   rooms_t rooms __attribute__((aligned(64)));  // vectors of eight do not cross lines of the cache
   const around_t there = around(&scene, region, false);
   const bool has_few = (ulong)there.places * (REGION * REGION * REGION_Z) < (ulong)FEW_OF_REGION * there.pixels;
@@ -321,7 +335,7 @@ kernel void label_regions(global const uint* restrict starts, global const int* 
   if (IS_WEIGHTED && label_if_heavy(&scene, own, &rooms.lists)) return;
   if (label_if_dense(&scene, own, &rooms.stamps)) return;
   for (int i = 0; i < children_of(own, TILE, TILE, TILE_Z); ++i) {
-    const box_t tile = child_of(own, i, TILE, TILE, TILE_Z);
+    const box_t tile = child_of(&scene, own, i, TILE, TILE, TILE_Z);
     if (!is_in_grid(&scene, tile)) continue;
     if (SIDE > TILE && label_if_dense(&scene, tile, &rooms.stamps)) continue;
     label_by_lists(&scene, tile, &rooms.lists);

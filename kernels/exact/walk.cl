@@ -28,16 +28,22 @@ static inline span_t with_bins_around(span_t s, int rings, int bits) {
 }
 // What a box can need: the axis, or along a periodic one all that is at most half a period away, in a tilted grid all
 // that the nearest image of a place can be away.
-static inline span_t limits_of(int from, int to, int size, int periodic, int farthest) {
-  const int reach = (IS_TILTED ? farthest : size / 2) + 1;
-  return periodic ? span_of(from - reach, to + reach) : span_of(0, size - 1);
+static inline span_t limits_of(int from, int to, int size, int periodic, int reach) {
+  return periodic ? span_of(from - reach - 1, to + reach + 1) : span_of(0, size - 1);
 }
 static inline cuboid_t limits_around(const scene_t* scene, box_t b) {
-  const int farthest = scene->tilts.w;
+  int4 reach = scene->size / 2;
+#if IS_TILTED
+  // An axis that no tilt names is one for itself.
+  const int xy = TILT_XY(scene), xz = TILT_XZ(scene), yz = TILT_YZ(scene), farthest = REACH_OF_TILTS(scene);
+  if (xy != 0 || xz != 0) reach.x = farthest / SPACING_X + 1;
+  if (xy != 0 || yz != 0) reach.y = farthest / SPACING_Y + 1;
+  if (xz != 0 || yz != 0) reach.z = farthest / SPACING_Z + 1;
+#endif
   cuboid_t c;
-  c.x = limits_of(b.x, b.x + b.sx - 1, scene->size.x, IS_PERIODIC(scene, x), farthest);
-  c.y = limits_of(b.y, b.y + b.sy - 1, scene->size.y, IS_PERIODIC(scene, y), farthest);
-  c.z = limits_of(b.z, b.z + b.sz - 1, scene->size.z, IS_PERIODIC(scene, z), farthest);
+  c.x = limits_of(b.x, b.x + b.sx - 1, scene->size.x, IS_PERIODIC(scene, x), reach.x);
+  c.y = limits_of(b.y, b.y + b.sy - 1, scene->size.y, IS_PERIODIC(scene, y), reach.y);
+  c.z = limits_of(b.z, b.z + b.sz - 1, scene->size.z, IS_PERIODIC(scene, z), reach.z);
   return c;
 }
 // at / size, rounded down.
@@ -49,7 +55,8 @@ static inline span_t of_image(span_t s, int image, int size, int periodic) {
   return periodic ? span_of(max(s.from - image * size, 0), min(s.to - image * size, size - 1)) : s;
 }
 
-// IMAGES. One lies `image` periods away, and in a tilted grid so many units further along x and y.
+// IMAGES. One lies `image` periods away, and in a tilted grid so many units further along x and y. The host sees to it
+// that those of all images that are walked fit in an int.
 static inline int tilt_of_slice(const scene_t* scene, int image_z) { return IS_TILTED ? image_z * TILT_YZ(scene) : 0; }
 static inline int tilt_of_row(const scene_t* scene, int image_y, int image_z) {
   return IS_TILTED ? image_z * TILT_XZ(scene) + image_y * TILT_XY(scene) : 0;

@@ -231,9 +231,10 @@ Grid::Shifts Grid::shifts() const {
         std::nearbyint(periods * static_cast<double>(axis.pixels()) * fractions_of_pixel));
     return axis.is_reversed() == from.is_reversed() ? units : -units;
   };
-  const double xy = tilt_ / period(x_), yz = tilt_yz_ == 0 ? 0 : tilt_yz_ / period(y_);
+  const auto in_periods = [&](double tilt, const Axis& axis) { return tilt == 0 ? 0 : tilt / period(axis); };
+  const double xy = in_periods(tilt_, x_), yz = in_periods(tilt_yz_, y_);
   const double rows = yz - less_whole_ones(yz);  // whole periods of y, each of which leans along x
-  const double xz = tilt_xz_ / period(x_) - rows * xy;
+  const double xz = in_periods(tilt_xz_, x_) - rows * xy;
   return {in_units(less_whole_ones(xy), x_, y_), in_units(less_whole_ones(xz), x_, z_),
           in_units(less_whole_ones(yz), y_, z_)};
 }

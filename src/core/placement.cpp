@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <string>
 #include <utility>
 
@@ -14,6 +15,13 @@
 #include "exact/sizes.cl"
 
 namespace vorocl {
+
+namespace {
+
+constexpr std::int64_t most_pixels_away = std::int64_t{1} << AWAY_BITS;
+static_assert(Window::max_side <= 1 << SIDE_BITS);
+
+}  // namespace
 
 bool are_crowded(const PixelGrid& volume, const std::vector<std::uint32_t>& voxels) {
   // By bins of 8 x 8 x 8 voxels. Measured: with fewer crowded bins, and where nearly all bins have seeds,
@@ -41,9 +49,35 @@ bool are_crowded(const PixelGrid& volume, const std::vector<std::uint32_t>& voxe
   return crowded > bins / bins_per_crowded_one && occupied < bins / 8 * 7;
 }
 
+namespace {
+
+/// How far the nearest image of a place may be in a tilted grid, in units of the spacing (docs/exact.md).
+std::int64_t reach_of_tilts(const Grid& grid) {
+  const Periods periods(grid);
+  return (periods.x * grid.x().spacing() + periods.y * grid.y().spacing() + periods.z * grid.z().spacing() +
+          1) /
+         2;
+}
+
+}  // namespace
+
+bool tilts_fit(const Grid& grid) {
+  if (!grid.is_tilted()) return true;
+  const Grid::Shifts shifts = grid.shifts();
+  const std::int64_t reach = reach_of_tilts(grid);
+  // So many images are walked at most; a box that sticks out of the grid adds some.
+  const auto images = [reach](const Axis& axis) { return reach / (axis.pixels() * axis.spacing()) + 4; };
+  const std::int64_t along_x =
+      images(grid.y()) * std::abs(shifts.xy) + images(grid.z()) * std::abs(shifts.xz);
+  const std::int64_t along_y = images(grid.z()) * std::abs(shifts.yz);
+  const std::int64_t most = (std::numeric_limits<cl_int>::max() - in_fractions(2 * Window::max_side)) /
+                            std::max({grid.x().spacing(), grid.y().spacing()});
+  return along_x <= most && along_y <= most;
+}
+
 bool kernels_go_round(const Window& window, const PixelGrid& shown) {
   constexpr int most = 32000;  // ways across the ends of periods must fit in 16 bits
-  return window.is_whole() && shown.periodic() == window.periodic() &&
+  return window.is_whole() && tilts_fit(window.grid()) && shown.periodic() == window.periodic() &&
          (!shown.periodic_x() || shown.width() <= most) && (!shown.periodic_y() || shown.height() <= most);
 }
 
@@ -79,9 +113,6 @@ std::shared_ptr<const Placement> place_in_window(const Device& device, const Win
 }
 
 namespace {
-
-constexpr std::int64_t most_pixels_away = std::int64_t{1} << AWAY_BITS;
-static_assert(Window::max_side <= 1 << SIDE_BITS);
 
 Region centres_of(const Region& pixels) {
   return {centre_of(pixels.left), centre_of(pixels.top), centre_of(pixels.right), centre_of(pixels.bottom)};
@@ -129,9 +160,6 @@ PointPlacement placement_of(const Window& window, const PixelGrid& shown, const 
   const Region region = labelled_region(window);
   const auto as_int = [](std::int64_t number) { return static_cast<cl_int>(number); };
   const Periods periods(window.grid());
-  const auto [sx, sy, sz] = shown.spacing();
-  const std::int64_t reach =
-      ((periods.x * sx + periods.y * sy + periods.z * sz) / 2 + 1) / std::min({sx, sy, sz}) + 1;
   const Grid::Shifts shifts = window.grid().is_tilted() ? window.grid().shifts() : Grid::Shifts{};
   return {shown,
           seeds,
@@ -142,7 +170,7 @@ PointPlacement placement_of(const Window& window, const PixelGrid& shown, const 
           {{as_int(region.left), as_int(region.top), 0}},
           {{as_int(region.right), as_int(region.bottom), shown.depth() - 1}},
           {{as_int(periods.x), as_int(periods.y), as_int(periods.z), 0, as_int(shifts.xy), as_int(shifts.xz),
-            as_int(shifts.yz), as_int(reach)}}};
+            as_int(shifts.yz), window.grid().is_tilted() ? as_int(reach_of_tilts(window.grid())) : 0}}};
 }
 
 }  // namespace

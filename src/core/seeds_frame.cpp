@@ -415,6 +415,12 @@ std::shared_ptr<const Placement> SeedsFrame::place_in(const Window& window, cons
 std::shared_ptr<const PointPlacement> SeedsFrame::place_points_in(const Window& window,
                                                                   const PixelGrid& shown) const {
   return placements->of_points.get(window, shown, [&] {
+    if (has_voxels(grid) && !tilts_fit(grid)) {
+      throw Error(
+          "the grid of " + size_text(grid) +
+          " is tilted, and so flat that the images of its seeds are too many for diagrams; exact cells "
+          "take it");
+    }
     if (whole && kernels_go_round(window, shown)) {
       if (whole->places) return placed_points(window, shown, *whole->places, size);
       if (has_voxels(grid)) return placed_points(window, shown, places_at_centres(*this), size);

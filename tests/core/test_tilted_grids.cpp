@@ -194,6 +194,28 @@ BOOST_AUTO_TEST_CASE(labels_are_those_of_all_images) {
   }
 }
 
+BOOST_AUTO_TEST_CASE(flat_boxes_have_the_labels_of_images_many_rows_away) {
+  // The tilts of the farthest images fit in 32 bits in some, and in others not.
+  for (const std::int64_t width : {700, 1200, 1400, 2600, 4000}) {
+    const TiltedBox box = {width, 1, width * parts / 2 - 7};
+    std::vector<Position> seeds;
+    std::vector<Point> points;
+    for (std::int64_t i = 0; i < 3; ++i) {
+      seeds.push_back({(i * 7919 + 13) * 1009 % (width * parts), i * 1201});
+      points.push_back({in_pixels(seeds.back().x), in_pixels(seeds.back().y)});
+    }
+    for (const Metric metric : {Metric::euclidean, Metric::manhattan}) {
+      const Labels expected = labels_by_definition(box, box.grid(), seeds, metric);
+      for (const Engine& engine : engines_of(metric)) {
+        Diagram diagram(engine.device, box.grid());
+        exact_diagram(Seeds(engine.device, box.grid(), points), diagram, {metric});
+        BOOST_TEST(count_differences(diagram.read(), expected) == 0u,
+                   width << " x 1, " << engine.name << ", " << name_of(metric));
+      }
+    }
+  }
+}
+
 BOOST_AUTO_TEST_CASE(labels_are_those_of_the_weights_of_all_images) {
   for (unsigned number = 0; number < (long_tests ? 20000 : 400); ++number) {
     RandomCase random(number);

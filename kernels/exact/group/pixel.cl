@@ -90,7 +90,10 @@ static inline winner_t nearest_in(const scene_t* scene, cuboid_t c, box_t pixel)
 
 static inline uint label_of(const scene_t* scene, box_t pixel) {
   const cuboid_t limits = limits_around(scene, pixel);
-  const int side = max(max(scene->size.x, scene->size.y), scene->size.z), most = max(side, scene->tilts.w + 1);
+  int most = max(max(scene->size.x, scene->size.y), scene->size.z);
+#if IS_TILTED
+  most = max(most, REACH_OF_TILTS(scene) + 1);
+#endif
   int reach = 1 << max(max(scene->bins.bits.x, scene->bins.bits.y), scene->bins.bits.z);
   while (true) {
     cuboid_t around = limits;
