@@ -26,7 +26,8 @@ struct CellStatisticsState;
 /// it counts where the window shows it. Labels that name absent seeds count nowhere.
 ///
 /// In a tilted grid a pixel lies the shortest of all ways from the seed, in the diagram's metric, and perhaps
-/// between pixels: then `sum_x`, and in a volume `sum_y`, are rounded, and a bounding box has the pixels that hold the centres.
+/// between pixels: then `sum_x`, and in a volume `sum_y`, are rounded, and a bounding box has the pixels that
+/// hold the centres.
 ///
 /// A measure has one name in planes and volumes: the area of a volume's cell is its volume, in voxels.
 struct CellSums {

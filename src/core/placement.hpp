@@ -96,7 +96,8 @@ std::shared_ptr<const PointPlacement> place_points(const Device& device, const W
 std::shared_ptr<const PointPlacement> placed_points(const Window& window, const PixelGrid& shown,
                                                     const cl::Buffer& places, std::size_t count);
 
-/// Whether the tilts of all images of a grid that kernels walk fit in 32 bits: those of very flat ones do not.
+/// Whether the tilts of all images of a grid that kernels walk fit in 32 bits: those of very flat ones do
+/// not.
 bool tilts_fit(const Grid& grid);
 
 /// Whether kernels go round the periodic axes of these pixels themselves, where no seed lies outside.
