@@ -1,8 +1,8 @@
 // TILTED GRIDS, whose seeds have fractions. What is one period of y further down lies `xy` units further along x, and
 // what is one period of z further `xz` and `yz` units along x and y. The tilts come as (xy, xz, yz, reach): along no
 // axis is the nearest image of a place farther than `reach` units of the spacing, of whole pixels. Kernels that label,
-// and those that find the pairs of cells, have the build option VOROCL_TILTED. A LATTICE comes as the periods in pixels, 0 along an axis
-// without one, then 0, and the tilts.
+// and those that find the pairs of cells, have the build option VOROCL_TILTED. A LATTICE comes as the periods in
+// pixels, 0 along an axis without one, then 0, and the tilts.
 
 #ifndef VOROCL_LATTICE
 #define VOROCL_LATTICE
