@@ -1,6 +1,5 @@
 // Images that follow from the labels: distances to the seeds, borders of the cells, labels near their seeds.
 
-#include "measures/beyond.cl"
 #include "measures/seed_place.cl"
 
 #if VOROCL_WIDTH == 1

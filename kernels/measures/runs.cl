@@ -19,6 +19,19 @@
 #define DEPTH(size) 1
 #endif
 
+// The place of a pixel in an image of labels, less than a period outside the grid; -1 if there is none. In a tilted
+// grid what lies a period of y further is shifted along x, and what lies one of z further along x and y, by whole
+// pixels: of the two pixels beside one that share an edge with it, the one that has more of it counts.
+static inline long index_of_image(int x, int y, int z, int4 size, int4 shifts) {
+  const int image_z = !PERIODIC_Z ? 0 : z < 0 ? -1 : z >= DEPTH(size);
+  x -= image_z * shifts.y, y -= image_z * shifts.z, z -= image_z * DEPTH(size);
+  const int image_y = !PERIODIC_Y ? 0 : y < 0 ? -1 : y >= size.y;
+  x -= image_y * shifts.x, y -= image_y * size.y;
+  if (PERIODIC_X) x = (x % size.x + size.x) % size.x;
+  const bool inside = x >= 0 && x < size.x && y >= 0 && y < size.y && z >= 0 && z < DEPTH(size);
+  return inside ? ((long)z * size.y + y) * size.x + x : -1;
+}
+
 // A block's pixels: x in [left, right), y in [top, bottom), z in [front, back).
 typedef struct {
   uint index;

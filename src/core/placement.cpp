@@ -195,7 +195,7 @@ std::shared_ptr<const PointPlacement> place_points(const Device& device, const W
   const auto place_of = [&](std::size_t id) {
     return given[id] - Place{in_fractions(window.x()), in_fractions(window.y())};
   };
-  const Images images(grid, fractions_of_pixel);
+  const Images images(grid);
   bool all_inside = true, all_near = true, seeds_fit = true, places_fit = true;
   for (std::size_t id = 0; id < count; ++id) {
     if (is_absent(given[id])) continue;

@@ -49,10 +49,9 @@ inline std::pair<Place, Place> reduced(Place u, Place v) {
 /// Where the images of a seed lie: in rows a period of y apart. Each row is shifted along x from the one
 /// before.
 struct Images {
-  /// Those of a grid, with so many units in a pixel; with a tilt, 4096.
-  explicit Images(const Grid& grid, std::int64_t units_of_pixel = 1)
-      : x(units_of_pixel * Periods(grid).x),
-        y(units_of_pixel * Periods(grid).y),
+  explicit Images(const Grid& grid)
+      : x(in_fractions(Periods(grid).x)),
+        y(in_fractions(Periods(grid).y)),
         shift(grid.is_tilted() ? grid.shifts().xy : 0),
         reach_x(x / 2),
         reach_y(shift == 0 ? y / 2 : reach_of_lattice()) {}

@@ -83,8 +83,8 @@ Report border_mask(const Diagram& diagram, Field<std::uint8_t>& mask) {
   FieldState<std::uint8_t>& state = measuring.state();
   MeasuredDiagram of = labels_of(diagram);
   state.make_room_for(of);
-  const cl::Event event =
-      state.kernel(of, "mark_borders", {}).over_grid(diagram.labels(), state.values, of.size(), of.shifts());
+  const cl::Event event = state.kernel(of, "mark_borders", {})
+                              .over_grid(diagram.labels(), state.values, of.size(), of.shifts_in_pixels());
   return measuring.commit(std::move(of), event, event);
 }
 

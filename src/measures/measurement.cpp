@@ -51,7 +51,7 @@ void make_room(cl::Buffer& buffer, const Device& device, std::size_t bytes) {
   buffer = allocate(device, bytes, "the measures of a diagram");
 }
 
-cl_int4 MeasuredDiagram::shifts() const {
+cl_int4 MeasuredDiagram::shifts_in_pixels() const {
   const Grid& of = window.grid();
   if (!of.is_tilted() || !grid.is_periodic()) return {};
   const auto in_pixels_of = [](std::int64_t shift) {
@@ -62,7 +62,7 @@ cl_int4 MeasuredDiagram::shifts() const {
 }
 
 bool MeasuredDiagram::is_shifted() const {
-  const cl_int4 all = shifts();
+  const cl_int4 all = shifts_in_pixels();
   return all.s[0] != 0 || all.s[1] != 0 || all.s[2] != 0;
 }
 
@@ -74,7 +74,8 @@ const cl::Buffer& rows_behind(const MeasuredDiagram& diagram, KernelSet& kernels
   const std::size_t pixels = static_cast<std::size_t>(grid.width()) * static_cast<std::size_t>(rows);
   make_room(room, diagram.device, pixels * word);
   kernels.get(diagram.device, "measures/beyond.cl", "copy_rows_behind", grid)
-      .over_items(pixels, labels, diagram.size(), diagram.shifts(), static_cast<cl_uint>(pixels), room);
+      .over_items(pixels, labels, diagram.size(), diagram.shifts_in_pixels(), static_cast<cl_uint>(pixels),
+                  room);
   return room;
 }
 

@@ -37,7 +37,7 @@ struct MeasuredDiagram {
   /// and how many along x and y the first slice the last one, where it is in z. All are 0 unless the grid is
   /// tilted. Pixels of one row lie between those of the other, and the two that share most of an edge have
   /// it.
-  cl_int4 shifts() const;
+  cl_int4 shifts_in_pixels() const;
   bool is_shifted() const;
 
   /// The unit of distances: so many are a pixel.

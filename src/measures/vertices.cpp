@@ -16,7 +16,7 @@ struct Corners {
   Corners(const MeasuredDiagram& diagram, int vector_width)
       : width(vector_width),
         columns(along(diagram.grid.width(), diagram.grid.periodic_x())),
-        rows(along(diagram.grid.height(), diagram.grid.periodic_y(), diagram.shifts().s[0])) {}
+        rows(along(diagram.grid.height(), diagram.grid.periodic_y(), diagram.shifts_in_pixels().s[0])) {}
 
   int width;  // words of a chunk
   int columns, rows;

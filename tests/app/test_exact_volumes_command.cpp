@@ -439,6 +439,38 @@ BOOST_AUTO_TEST_CASE(cells_of_tilted_boxes_are_those_of_what_repeats) {
   BOOST_TEST(read_table(folder / "f.csv").rows.size() == 60u);
 }
 
+BOOST_AUTO_TEST_CASE(seeds_of_flat_tilted_boxes_are_the_images_that_their_cells_lie_around) {
+  // Many slices of images lie nearer to a centroid than the nearest one of the nearest slice.
+  const double width = 8, height = 8, depth = 0.5, xy = 3, xz = 2.5, yz = -2;
+  std::string text = fmt::format(
+      "ITEM: TIMESTEP\n0\nITEM: NUMBER OF ATOMS\n30\nITEM: BOX BOUNDS xy xz yz pp pp pp\n"
+      "0 {} {}\n{} {} {}\n0 {} {}\nITEM: ATOMS id x y z\n",
+      width + xy + xz, xy, yz, height, xz, depth, yz);
+  int id = 0;
+  for (const Vector& share : random_points(30, 1))
+    text += fmt::format("{} {} {} {}\n", ++id, share[0] * width + share[1] * xy + share[2] * xz,
+                        share[1] * height + share[2] * yz, share[2] * depth);
+  const TemporaryFolder folder;
+  folder.file("flat.dump", text);
+  succeeds(folder,
+           "cells --exact --trajectory flat.dump --cells c.csv --cell-columns "
+           "x,y,z,centroid_x,centroid_y,centroid_z");
+  std::size_t nearer = 0;
+  for (const TableRow& row : read_table(folder / "c.csv").rows) {
+    const auto square_of = [&](int i, int j, int k) {
+      const double x = *row[0] - *row[3] + i * width + j * xy + k * xz,
+                   y = *row[1] - *row[4] + j * height + k * yz, z = *row[2] - *row[5] + k * depth;
+      return x * x + y * y + z * z;
+    };
+    for (int k = -24; k <= 24; ++k) {
+      for (int j = -8; j <= 8; ++j) {
+        for (int i = -12; i <= 12; ++i) nearer += square_of(i, j, k) < square_of(0, 0, 0) - 1e-9 ? 1 : 0;
+      }
+    }
+  }
+  BOOST_TEST(nearer == 0u);
+}
+
 BOOST_AUTO_TEST_CASE(one_particle_in_a_box_that_is_tilted_in_z_and_a_size_say_that_there_is_a_volume) {
   const TemporaryFolder folder;
   const std::string frame = "ITEM: TIMESTEP\n0\nITEM: NUMBER OF ATOMS\n1\nITEM: BOX BOUNDS ",

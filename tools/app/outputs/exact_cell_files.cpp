@@ -1,7 +1,9 @@
 #include "app/outputs/exact_cell_files.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "app/terminal/console.hpp"
@@ -18,23 +20,50 @@ Vertices vertices_of(const std::vector<Point>& vertices, const std::vector<Offse
   return {vertices.data() + offsets[seed], vertices.data() + offsets[seed + 1]};
 }
 
-/// Moves a seed to the image that its cell lies around; of a cell without an area to one in the period.
-/// Returns by how many periods.
+/// Calls a function with whole periods of an axis and the way that they leave of one, from the shortest on
+/// along both directions, as long as it returns true.
+template <typename Use>
+void each_image(const Axis& axis, double way, Use use) {
+  if (!axis.is_periodic()) return static_cast<void>(use(0, way));
+  const double length = axis.to() - axis.from(), nearest = std::nearbyint(-way / length);
+  for (const double side : {1.0, -1.0}) {
+    double periods = side > 0 ? nearest : nearest - 1;
+    while (use(periods, way + periods * length)) periods += side;
+  }
+}
+
+/// Moves a seed to the image that its cell lies around, which is the nearest one to the cell's centroid; of a
+/// cell without an area to one in the period. Returns by how many periods.
 PeriodCounts move_to_cell(Point& seed, const ExactCell& cell, const Grid& grid) {
-  const auto move = [&](const Axis& axis, double Point::*along) {
-    const double length = axis.to() - axis.from();
-    const double near = cell.area > 0 ? cell.centroid.*along : axis.from() + length / 2;
-    const double periods = axis.is_periodic() ? std::nearbyint((near - seed.*along) / length) : 0;
-    seed.*along += periods * length;
-    return static_cast<std::int32_t>(periods);
-  };
-  PeriodCounts moved = {0, 0, move(grid.z(), &Point::z)};
-  seed.x += moved[2] * grid.tilt_xz();
-  seed.y += moved[2] * grid.tilt_yz();
-  moved[1] = move(grid.y(), &Point::y);
-  seed.x += moved[1] * grid.tilt();
-  moved[0] = move(grid.x(), &Point::x);
-  return moved;
+  const bool has_area = cell.area > 0;
+  const auto middle = [](const Axis& axis) { return axis.from() + (axis.to() - axis.from()) / 2; };
+  const Point near = has_area ? cell.centroid : Point{middle(grid.x()), middle(grid.y()), middle(grid.z())};
+  std::array<double, 3> periods = {};
+  double least = std::numeric_limits<double>::infinity();
+  each_image(grid.z(), seed.z - near.z, [&](double k, double z) {
+    if (!(z * z < least)) return false;
+    each_image(grid.y(), seed.y + k * grid.tilt_yz() - near.y, [&](double j, double y) {
+      if (!(y * y + z * z < least)) return false;
+      each_image(grid.x(), seed.x + k * grid.tilt_xz() + j * grid.tilt() - near.x, [&](double i, double x) {
+        const double square = x * x + y * y + z * z;
+        if (!(square < least)) return false;
+        least = has_area ? square : 0;
+        periods = {i, j, k};
+        return true;
+      });
+      return true;
+    });
+    return true;
+  });
+  const auto length = [](const Axis& axis) { return axis.to() - axis.from(); };
+  seed.z += periods[2] * length(grid.z());
+  seed.x += periods[2] * grid.tilt_xz();
+  seed.y += periods[2] * grid.tilt_yz();
+  seed.y += periods[1] * length(grid.y());
+  seed.x += periods[1] * grid.tilt();
+  seed.x += periods[0] * length(grid.x());
+  const auto whole = [&](std::size_t axis) { return static_cast<std::int32_t>(periods[axis]); };
+  return {whole(0), whole(1), whole(2)};
 }
 
 }  // namespace
