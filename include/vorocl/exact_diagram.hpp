@@ -36,7 +36,7 @@ struct ExactOptions {
 ///
 /// In a tilted grid (Grid::tilted()) all seeds are taken as points, snapped ones at the centres of their
 /// pixels. Where the window is a part of it, or all of a plane that is longer than 32,000 pixels or very flat
-/// (its length squared more than some 2^20 times its height, at a tilt of half a period), the host places
+/// (its length squared more than 1.8 million times its height, at a tilt of half a period), the host places
 /// their images whenever they have moved, and looks at as many as rows of images may reach the window: sides
 /// of at most 131,072 pixels then, else this throws Error. Volumes as flat throw Error.
 ///

@@ -80,7 +80,8 @@ static void test_cells(const vorocl_device* device, const vorocl_seeds* seeds) {
 /* A box whose third edge leans by half of the others repeats as a body centred lattice. */
 static void test_tilted_volume(const vorocl_device* device) {
   vorocl_grid box = vorocl_grid_of_voxels(8, 8, 4, VOROCL_PERIODIC_XYZ);
-  const vorocl_point one = {1, 2, 3};
+  const vorocl_point one = {1, 2, 3}, two[2] = {{0.5, 0.5, 0.5}, {4.5, 4.5, 0.5}};
+  uint32_t labels[256];
   vorocl_seeds* seeds = NULL;
   vorocl_diagram* diagram = NULL;
   vorocl_exact_cells* all = NULL;
@@ -99,7 +100,15 @@ static void test_tilted_volume(const vorocl_device* device) {
   CHECK(cell.neighbours == 14 && cell.area == 256 && cell.certified == 1);
   OK(vorocl_exact_cells_read_faces(all, faces, 7, &count));
   CHECK(count == 7);
-  FAILS(vorocl_diagram_create(device, vorocl_window_of_grid(box), &diagram), VOROCL_BAD_ARGUMENT, "tilted");
+  /* Of two points in the first slice the other one's image stands above each. */
+  OK(vorocl_seeds_move_to(seeds, two, NULL, 2));
+  OK(vorocl_diagram_create(device, vorocl_window_of_grid(box), &diagram));
+  OK(vorocl_run("exact", seeds, diagram, NULL));
+  OK(vorocl_diagram_read(diagram, labels, 256));
+  CHECK(labels[0] == 0 && labels[4 * 8 + 4] == 1);
+  CHECK(labels[3 * 64] == 1 && labels[3 * 64 + 4 * 8 + 4] == 0);
+  FAILS(vorocl_run("jfa", seeds, diagram, NULL), VOROCL_BAD_ARGUMENT, "tilted");
+  vorocl_diagram_free(diagram);
   vorocl_exact_cells_free(all);
   vorocl_seeds_free(seeds);
 }
