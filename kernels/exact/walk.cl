@@ -124,7 +124,7 @@ static inline corners_t outside(corners_t at, float from, float to) {
   return fmax(fmax(from - at, at - to), 0.f);
 }
 
-// The pixels along x that the balls meet of the present row; false if there are none.
+// The pixels along x of the present row that the balls meet; false if there are none.
 static inline bool row_in_balls(const scene_t* scene, walk_t* w) {
   w->row = w->x;
   if (!w->cuts_rows) return true;
