@@ -45,7 +45,7 @@ static inline int turns_outward(long shorter, int number) {
 }
 
 // The shortest of a way and those round by the periods. Of equally short ones it is that to the nearest slice of
-// images, then to its nearest row; of two equally near the one to which the way goes along the axis.
+// images, then to its nearest row; of two equally near that of the way which is not below 0.
 static inline int4 shortest_way_round(const lattice_t* l, long x, long y, long z) {
   const long near_z = shorter_way_of(z, l->z), periods_z = l->z == 0 ? 0 : (z - near_z) / l->z;
   int4 shortest = 0;

@@ -10,7 +10,8 @@ static inline int turns_to_near(int way, int period, int periodic) {
   return periodic ? -(int)rint((float)way / (float)period) : 0;
 }
 #endif
-// From a centre to the nearest image of a place; in a tilted grid as near as floats tell.
+// From a centre to the nearest image of a place; in a tilted grid as near as floats tell, which take fewer of a GPU's
+// registers than shortest_way_round().
 static inline int4 to_nearest_image(const scene_t* scene, uint at, int4 centre) {
   const int4 period = scene->size * (ONE * SPACINGS);
   const int x = scene->x[at] - centre.x, y = scene->y[at] - centre.y, z = IS_VOLUME ? scene->z[at] - centre.z : 0;
@@ -243,11 +244,13 @@ NOINLINE static uint nearest_at(const scene_t* scene, box_t b, const list_t* lis
 
 // Whether a place is nearer to a pixel than another one.
 static inline long distance_to(const scene_t* scene, int4 centre, uint at) {
-  int4 way = to_nearest_image(scene, at, centre);
 #if IS_TILTED
   const int4 sides = scene->size * (int4)(IS_PERIODIC(scene, x), IS_PERIODIC(scene, y), IS_PERIODIC(scene, z), 0);
   const lattice_t lattice = lattice_of(sides.x, sides.y, sides.z, scene->tilts, ONE);
-  way = shortest_way_round(&lattice, way.x, way.y, way.z);
+  const int4 way = shortest_way_round(&lattice, scene->x[at] - centre.x, scene->y[at] - centre.y,
+                                      IS_VOLUME ? scene->z[at] - centre.z : 0);
+#else
+  const int4 way = to_nearest_image(scene, at, centre);
 #endif
   const long distance = ALONG((long)way.x) + ALONG((long)way.y) + ALONG((long)way.z);
   return distance + (IS_WEIGHTED ? (long)scene->lags[at] * LAG_UNIT : 0);

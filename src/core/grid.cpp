@@ -364,8 +364,7 @@ void refuse_volume(const Grid& grid, const char* what) {
 
 void refuse_tilted(const Grid& grid, const char* what) {
   if (!grid.is_tilted()) return;
-  throw Error("the grid is tilted, which " + std::string(what) +
-              " cannot take; exact diagrams of a window of the grid do");
+  throw Error("the grid is tilted, which " + std::string(what) + " cannot take; exact diagrams do");
 }
 
 std::string periodic_text(Axes axes) {

@@ -65,8 +65,10 @@ bool tilts_fit(const Grid& grid) {
   if (!grid.is_tilted()) return true;
   const Grid::Shifts shifts = grid.shifts();
   const std::int64_t reach = reach_of_tilts(grid);
-  // So many images are walked at most; a box that sticks out of the grid adds some.
-  const auto images = [reach](const Axis& axis) { return reach / (axis.pixels() * axis.spacing()) + 4; };
+  // So many images are walked at most, by boxes that may stick out of the grid.
+  const auto images = [reach](const Axis& axis) {
+    return (reach / axis.spacing() + SIDE_OF_PLANE) / axis.pixels() + 2;
+  };
   const std::int64_t along_x =
       images(grid.y()) * std::abs(shifts.xy) + images(grid.z()) * std::abs(shifts.xz);
   const std::int64_t along_y = images(grid.z()) * std::abs(shifts.yz);
