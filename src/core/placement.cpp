@@ -92,22 +92,24 @@ PackedPositions::PackedPositions(const PixelGrid& grid) : bits{{16, 15}}, empty(
 
 std::shared_ptr<const Placement> place_in_window(const Device& device, const Window& window,
                                                  const PixelGrid& shown, const std::vector<Place>& places) {
-  std::vector<std::uint32_t> packed;
-  packed.reserve(places.size() + 1);  // one more is added when they are uploaded
+  const Place origin = {in_fractions(window.x()), in_fractions(window.y())};
+  const std::int64_t width = in_fractions(shown.width()), height = in_fractions(shown.height());
+  const auto is_outside = [&](const Place& place) {
+    const auto [x, y] = place - origin;
+    return x < 0 || x >= width || y < 0 || y >= height;
+  };
   std::size_t outside = 0;
-  for (const Place& place : places) {
-    if (is_absent(place)) {
-      packed.push_back(absent_position);
-      continue;
-    }
-    const std::int64_t x = pixel_of(place.x) - window.x(), y = pixel_of(place.y) - window.y();
-    const bool inside = x >= 0 && x < shown.width() && y >= 0 && y < shown.height();
-    packed.push_back(inside ? pack(static_cast<int>(x), static_cast<int>(y)) : absent_position);
-    outside += inside ? 0 : 1;
-  }
+  for (const Place& place : places) outside += !is_absent(place) && is_outside(place) ? 1 : 0;
   if (outside > 0 || !kernels_go_round(window, shown)) {
     return std::make_shared<const Placement>(
         Placement{shown.without_periods(), nullptr, nullptr, false, true, outside});
+  }
+  std::vector<std::uint32_t> packed;
+  packed.reserve(places.size() + 1);
+  const auto pixel = [](std::int64_t at) { return static_cast<int>(pixel_of(at)); };
+  for (const Place& place : places) {
+    const bool is_there = !is_absent(place);
+    packed.push_back(is_there ? pack(pixel(place.x - origin.x), pixel(place.y - origin.y)) : absent_position);
   }
   packed.push_back(absent_position);
   return std::make_shared<const Placement>(Placement{
@@ -197,66 +199,67 @@ std::shared_ptr<const PointPlacement> place_points(const Device& device, const W
   const auto place_of = [&](std::size_t id) {
     return given[id] - Place{in_fractions(window.x()), in_fractions(window.y())};
   };
+  const auto lag_of = [lags](std::size_t id) {
+    constexpr double unit = fractions_of_pixel * (fractions_of_pixel >> LAG_BITS);
+    return lags == nullptr ? 0.0 : unit * lags->of_seeds[id];
+  };
   const Images images(grid);
+  const Region region = labelled_region(window), centres = centres_of(region);
+  Rim rim(centres);
+  std::vector<cl_int2> seeds(count + 1, absent_point);
   bool all_inside = true, all_near = true, seeds_fit = true, places_fit = true;
   for (std::size_t id = 0; id < count; ++id) {
     if (is_absent(given[id])) continue;
-    const Place place = place_of(id);
+    const Place place = place_of(id), near = near_image(place, images);
     all_near = all_near && fits(place);
-    seeds_fit = seeds_fit && fits(near_image(place, images));
+    if (fits(near)) {
+      seeds[id] = as_int2(near);
+    } else {
+      seeds_fit = false;
+    }
     all_inside = all_inside && place.x >= 0 && place.x < in_fractions(shown.width()) && place.y >= 0 &&
                  place.y < in_fractions(shown.height());
+    each_place(centres, images, place, [&](const Place& image) { rim.add_to_middle(image, lag_of(id)); });
   }
 
   std::vector<Place> places;
   std::vector<cl_uint> ids;
   const bool go_round = all_inside && kernels_go_round(window, shown);
-  const Region region = labelled_region(window);
   if (!go_round && !region.empty()) {
-    const Region centres = centres_of(region);
-    const auto each = [&](auto use) {
-      for (std::size_t id = 0; id < count; ++id) {
-        if (is_absent(given[id])) continue;
-        each_place(centres, images, place_of(id), [&](const Place& place) { use(place, id); });
-      }
-    };
-    const auto lag_of = [lags](std::size_t id) {
-      constexpr double unit = fractions_of_pixel * (fractions_of_pixel >> LAG_BITS);
-      return lags == nullptr ? 0.0 : unit * lags->of_seeds[id];
-    };
-    Rim rim(centres);
-    each([&](const Place& place, std::size_t id) { rim.add(place, lag_of(id)); });
-    each([&](const Place& place, std::size_t id) {
-      if (rim.rules_out(place, lag_of(id))) return;
-      if (!fits(place) && are_points) {
-        throw Error("seed " + std::to_string(id) + " may own pixels of the diagram, and lies more than " +
+    const Images near = images.within(rim.reach());
+    for (std::size_t id = 0; id < count; ++id) {
+      if (is_absent(given[id])) continue;
+      each_place(centres, near, place_of(id), [&](const Place& place) {
+        rim.add(place, lag_of(id));
+        places.push_back(place);
+        ids.push_back(static_cast<cl_uint>(id));
+      });
+    }
+    std::size_t stay = 0;
+    for (std::size_t i = 0; i < places.size(); ++i) {
+      if (rim.rules_out(places[i], lag_of(ids[i]))) continue;
+      if (!fits(places[i]) && are_points) {
+        throw Error("seed " + std::to_string(ids[i]) + " may own pixels of the diagram, and lies more than " +
                     std::to_string(most_pixels_away) +
                     " pixels from its window's first one: that is too far for positions within a pixel; snap "
                     "the seeds to pixels, or take a window nearer to them");
       }
-      places_fit = places_fit && fits(place);
-      places.push_back(place);
-      ids.push_back(static_cast<cl_uint>(id));
-    });
+      places_fit = places_fit && fits(places[i]);
+      places[stay] = places[i];
+      ids[stay] = ids[i];
+      ++stay;
+    }
+    places.resize(stay);
+    ids.resize(stay);
   }
 
   const auto in_whole_pixels = [](const Place& place) {
     return as_int2({pixel_of(place.x), pixel_of(place.y)});
   };
   const bool seeds_in_pixels = !seeds_fit && !are_points;
-  std::vector<cl_int2> seeds;
-  seeds.reserve(count + 1);
-  for (std::size_t id = 0; id < count; ++id) {
-    if (is_absent(given[id])) {
-      seeds.push_back(absent_point);
-    } else if (seeds_in_pixels) {
-      seeds.push_back(in_whole_pixels(place_of(id)));
-    } else {
-      const Place near = near_image(place_of(id), images);
-      seeds.push_back(fits(near) ? as_int2(near) : absent_point);
-    }
+  for (std::size_t id = 0; seeds_in_pixels && id < count; ++id) {
+    if (!is_absent(given[id])) seeds[id] = in_whole_pixels(place_of(id));
   }
-  seeds.push_back(absent_point);
   PointPlacement placed = placement_of(window, shown, allocate_with(device, seeds, "the seeds"), count);
   if (go_round) return std::make_shared<const PointPlacement>(std::move(placed));
 

@@ -53,14 +53,26 @@ struct Images {
       : x(in_fractions(Periods(grid).x)),
         y(in_fractions(Periods(grid).y)),
         shift(grid.is_tilted() ? grid.shifts().xy : 0),
-        reach_x(x / 2),
-        reach_y(shift == 0 ? y / 2 : reach_of_lattice()) {}
+        reach_x(x == 0 ? any_way : x / 2),
+        reach_y(y == 0       ? any_way
+                : shift == 0 ? y / 2
+                             : reach_of_lattice()) {}
+
+  /// Those alone that are no farther along an axis.
+  Images within(std::int64_t reach) const {
+    Images near = *this;
+    near.reach_x = std::min(reach_x, reach);
+    near.reach_y = std::min(reach_y, reach);
+    return near;
+  }
 
   std::int64_t x, y;  // the periods, 0 along an axis that is not periodic
   std::int64_t shift;
   std::int64_t reach_x, reach_y;  // how far along the axes the image that is nearest to a place is at most
 
  private:
+  static constexpr std::int64_t any_way = std::int64_t{1} << 61;
+
   /// Every place is at most half of either of two vectors that span the lattice away from an image, and so,
   /// along y, at most half the sum of what they are long by the Manhattan metric, which no distance along y
   /// exceeds. Short vectors reach less far.
@@ -89,8 +101,12 @@ inline Region labelled_region(const Window& window) {
 /// Whole periods, from the first to the last: those that bring a coordinate between two others.
 struct Turns {
   Turns(std::int64_t at, std::int64_t period, std::int64_t low, std::int64_t high) {
-    if (period == 0) return;
-    const auto floor_of = [period](std::int64_t way) {
+    if (period == 0) {
+      last = at >= low && at <= high ? 0 : -1;
+      return;
+    }
+    const auto floor_of = [period](std::int64_t way) -> std::int64_t {
+      if (way >= 0 && way < period) return 0;  // most often, and a division takes long
       return way >= 0 ? way / period : -((period - 1 - way) / period);
     };
     first = -floor_of(at - low);
@@ -114,9 +130,9 @@ void each_place(const Region& region, const Images& images, const Place& seed, U
 
 /// Rules out places that own no pixel of the region. Whatever is nearer at the region's four corners is
 /// nearer at all its pixels (docs/exact.md says why). Along the region's rim stand witnesses:
-/// the places nearest to each stretch of it, and one more in the middle. A place is held against that and the
-/// witness of the stretch that it is nearest to. Lags, in the squares of the places' unit, are for the
-/// Euclidean metric.
+/// the places nearest to each stretch of it, and one more in the middle, which is known first. A place is
+/// held against that and the witness of the stretch that it is nearest to. Lags, in the squares of the
+/// places' unit, are for the Euclidean metric.
 class Rim {
  public:
   explicit Rim(const Region& region) : region_(region) {
@@ -125,15 +141,27 @@ class Rim {
     witnesses_.resize(4 * stretches_of_side);
   }
 
-  void add(const Place& place, double lag = 0) {
+  void add_to_middle(const Place& place, double lag) {
+    const std::int64_t away = distance_to_middle(place);
+    if (!middle_ || away < middle_->away) middle_ = Witness{place, away, lag};
+  }
+
+  /// The place in the middle rules out what is farther than this from the region along an axis.
+  std::int64_t reach() const {
+    if (!middle_) return 0;
+    const Place& place = middle_->place;
+    const std::int64_t along_x = std::max(region_.right - place.x, place.x - region_.left),
+                       along_y = std::max(region_.bottom - place.y, place.y - region_.top);
+    return along_x + along_y + static_cast<std::int64_t>(std::sqrt(middle_->lag)) + 1;
+  }
+
+  void add(const Place& place, double lag) {
     std::optional<Witness>& witness = witnesses_[stretch_of(place)];
     const std::int64_t away = distance_to_rim(place);
     if (!witness || away < witness->away) witness = Witness{place, away, lag};
-    const std::int64_t to_middle = distance_to_middle(place);
-    if (!middle_ || to_middle < middle_->away) middle_ = Witness{place, to_middle, lag};
   }
 
-  bool rules_out(const Place& place, double lag = 0) const {
+  bool rules_out(const Place& place, double lag) const {
     const std::optional<Witness>& witness = witnesses_[stretch_of(place)];
     return (witness && is_nearer(*witness, place, lag)) || (middle_ && is_nearer(*middle_, place, lag));
   }
