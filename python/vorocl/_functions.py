@@ -131,7 +131,7 @@ def diagram(
 
     In a volume, of a shape (D, H, W), points are rows (x, y, z): of several at the least distance the one with the least
     z wins, then y, then x, then the row. There "exact" is Euclidean, "jfa" and its variants are the other
-    methods, there are no tilts, and points outside are refused unless they are to be absent.
+    methods, and points outside are refused unless they are to be absent.
 
     Parameters
     ----------
