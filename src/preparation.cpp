@@ -41,14 +41,15 @@ struct Scale {
 };
 constexpr Scale scales[] = {{300, 270, 1000}, {2048, 2048, 70000}};
 
-/// Points in [0, width) x [0, height), spread by the golden ratio and the square root of two.
-std::vector<Point> spread_points(std::size_t count, double width, double height) {
+/// Points in [0, width) x [0, height) x [0, depth], spread by the golden ratio and square roots.
+std::vector<Point> spread_points(std::size_t count, double width, double height, double depth = 0) {
   std::vector<Point> points;
   points.reserve(count);
   for (std::size_t i = 0; i < count; ++i) {
     const auto number = static_cast<double>(i);
-    points.push_back(
-        {std::fmod(number * 0.6180339887, 1) * width, std::fmod(number * 0.4142135624, 1) * height});
+    points.push_back({std::fmod(number * 0.6180339887, 1) * width,
+                      std::fmod(number * 0.4142135624, 1) * height,
+                      std::fmod(number * 0.7320508076, 1) * depth});
   }
   return points;
 }
@@ -90,22 +91,31 @@ void measure(const Diagram& diagram, const Diagram& other, Snap snap) {
   vertices_found.read();
 }
 
-/// Those of few seeds around one, which has more edges than a kernel has private room for, and those of many.
+/// Those of few seeds around one, which has more edges than a kernel has private room for, those of many, and
+/// those of volumes.
 void prepare_exact_cells(const Device& device) {
   if (!has_doubles(device)) return;
   std::vector<Point> star = {{0, 0}};
   for (int i = 0; i < 200; ++i) star.push_back({std::cos(i), std::sin(i)});
-  for (const std::vector<Point>& points : {star, spread_points(scales[1].seeds, 1, 1)}) {
-    ExactCellsResult cells;
-    exact_cells(Seeds(device, Grid(Axis(1, -2, 2), Axis(1, -2, 2)), points), cells);
-    cells.edges();
+  const Axis axis(2, -2, 2);
+  for (const std::vector<Point>& points : {star, spread_points(scales[1].seeds, 1, 1, 1)}) {
+    for (const Grid& grid : {Grid(axis, axis), Grid(axis, axis, axis)}) {
+      ExactCellsResult cells;
+      exact_cells(Seeds(device, grid, points), cells);
+      if (grid.is_volume()) {
+        cells.read_polyhedra();
+      } else {
+        cells.edges();
+      }
+    }
   }
   device.finish();
 }
 
-/// Volumes with few rows and with many.
-void prepare_volumes(const Device& device) {
-  for (const Grid& grid : {Grid(40, 40, 40), Grid(16, 300, 300)}) {
+/// Volumes with few rows and with many, with periods along all axes or none.
+void prepare_volumes(const Device& device, bool are_periodic) {
+  const Axes periodic = are_periodic ? Axes::xyz : Axes::none;
+  for (const Grid& grid : {Grid(40, 40, 40, periodic), Grid(16, 300, 300, periodic)}) {
     const Seeds seeds = Seeds::random(device, grid, 1000, 1);
     Diagram diagram(device, grid), other(device, grid);
     for (const Method& each : methods()) {
@@ -131,6 +141,31 @@ void prepare_volumes(const Device& device) {
     distance_errors(other, diagram, wrong);
     measure_cells(diagram);
     diagram.wait();
+  }
+}
+
+/// Weighted seeds, and tilted boxes where there are periods, in planes and volumes.
+void prepare_weights_and_tilts(const Device& device, bool are_periodic) {
+  constexpr std::size_t count = 1000;
+  std::vector<double> weights(count);
+  weights.front() = 1;
+  const Axes of_planes = are_periodic ? Axes::xy : Axes::none;
+  const Axes of_volumes = are_periodic ? Axes::xyz : Axes::none;
+  for (const Grid& straight : {Grid(300, 270, of_planes), Grid(40, 40, 40, of_volumes)}) {
+    const std::vector<Point> points = spread_points(count, 40, 40, straight.is_volume() ? 40 : 0);
+    for (const bool is_tilted : {false, true}) {
+      if (is_tilted && !are_periodic) continue;
+      const Grid grid = is_tilted ? straight.tilted(5, straight.is_volume() ? 4 : 0) : straight;
+      Diagram diagram(device, grid);
+      exact_diagram(Seeds(device, grid, points), diagram);
+      exact_diagram(Seeds(device, grid, Points(points).weighted(weights.data())), diagram);
+      Field<float> distances;
+      Field<std::uint8_t> borders;
+      distance_field(diagram, distances);
+      border_mask(diagram, borders);
+      measure_cells(diagram);
+      diagram.wait();
+    }
   }
 }
 
@@ -225,8 +260,13 @@ std::size_t prepare_programs(const Device& device, const PreparationPart& part) 
   for (std::size_t i = part.index; i < std::size(specialisations); i += part.count) {
     for (const Scale& scale : scales) prepare_at(scale, device, specialisations[i]);
     prepare_windows(device, specialisations[i]);
+    // So that two processes have as much to do.
+    if (i < 2) {
+      const bool are_periodic = i == 1;
+      prepare_volumes(device, are_periodic);
+      prepare_weights_and_tilts(device, are_periodic);
+    }
     if (i == 0) {
-      prepare_volumes(device);
       prepare_images(device);
       prepare_exact_cells(device);
       prepare_globe(device);

@@ -48,6 +48,17 @@ BOOST_AUTO_TEST_CASE(after_it_nothing_is_built_from_its_source) {
   const json prepared = json::parse(result.out);
   BOOST_TEST(prepared["binaries"] > 50);
   BOOST_TEST(prepared["folder"] == folder / "cache/vorocl/binaries");
+  std::string plane = "x,y,z,w\n", frame = "id x y z\n";
+  for (int id = 0; id < 300; ++id) {
+    const std::string place[] = {std::to_string(id * 7 % 20), std::to_string(id * 11 % 19),
+                                 std::to_string(id * 13 % 17)};
+    plane += place[0] + ',' + place[1] + ',' + place[2] + ',' + std::to_string(id % 5) + '\n';
+    frame += std::to_string(id) + ' ' + place[0] + ' ' + place[1] + ' ' + place[2] + '\n';
+  }
+  folder.file("points.csv", plane);
+  const std::string before = "ITEM: TIMESTEP\n0\nITEM: NUMBER OF ATOMS\n300\nITEM: BOX BOUNDS ";
+  folder.file("box.lammpstrj", before + "pp pp pp\n0 20\n0 20\n0 20\nITEM: ATOMS " + frame);
+  folder.file("tilted.lammpstrj", before + "xy xz yz pp pp pp\n0 29 6\n0 22 3\n0 20 2\nITEM: ATOMS " + frame);
   for (const std::string line :
        {"render --random 900 --size 700x500 -o p.png --color area --edges",
         "render --random 900 --size 700x500 --periodic xy --metric manhattan --labels l.npy --method djfa",
@@ -55,7 +66,11 @@ BOOST_AUTO_TEST_CASE(after_it_nothing_is_built_from_its_source) {
         "simulate --random 900 --size 700x500 --frames 3 --step-length 2 --method djfa --compare-with exact "
         "--similarity s.csv --statistics t.csv",
         "relax --random 900 --size 700x500 --rounds 2 --relaxed-points r.csv",
-        "tiles --random 900 --size 700x500 --tile 256 --labels t.npy"}) {
+        "tiles --random 900 --size 700x500 --tile 256 --labels t.npy",
+        "cells --points points.csv --weights w --size 40x40x40 --bounds 0,0,0,20,20,20 --cells c.csv",
+        "cells --trajectory box.lammpstrj --size 40x40x40 --cells c.csv --adjacency a.csv",
+        "cells --trajectory tilted.lammpstrj --size 40x40x40 --cells c.csv --adjacency a.csv",
+        "cells --trajectory tilted.lammpstrj --exact --cells c.csv --adjacency a.csv"}) {
     const Result later = run(folder, line,
                              with_cache_in(folder) + " LD_PRELOAD='" VOROCL_FAULTS
                                                      "' VOROCL_FAULT='clCreateProgramWithSource 1 on'");
