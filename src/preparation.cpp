@@ -144,28 +144,25 @@ void prepare_volumes(const Device& device, bool are_periodic) {
   }
 }
 
-/// Weighted seeds, and tilted boxes where there are periods, in planes and volumes.
+/// Tilted boxes, and weighted seeds in straight and tilted ones. A grid without periods has no tilt.
 void prepare_weights_and_tilts(const Device& device, bool are_periodic) {
-  constexpr std::size_t count = 1000;
-  std::vector<double> weights(count);
+  const Grid plane(300, 270, are_periodic ? Axes::xy : Axes::none);
+  const Grid volume(40, 40, 40, are_periodic ? Axes::xyz : Axes::none);
+  std::vector<Grid> grids = {plane, volume};
+  if (are_periodic) grids.insert(grids.end(), {plane.tilted(5), volume.tilted(5, 4)});
+  std::vector<double> weights(1000);
   weights.front() = 1;
-  const Axes of_planes = are_periodic ? Axes::xy : Axes::none;
-  const Axes of_volumes = are_periodic ? Axes::xyz : Axes::none;
-  for (const Grid& straight : {Grid(300, 270, of_planes), Grid(40, 40, 40, of_volumes)}) {
-    const std::vector<Point> points = spread_points(count, 40, 40, straight.is_volume() ? 40 : 0);
-    for (const bool is_tilted : {false, true}) {
-      if (is_tilted && !are_periodic) continue;
-      const Grid grid = is_tilted ? straight.tilted(5, straight.is_volume() ? 4 : 0) : straight;
-      Diagram diagram(device, grid);
-      exact_diagram(Seeds(device, grid, points), diagram);
-      exact_diagram(Seeds(device, grid, Points(points).weighted(weights.data())), diagram);
-      Field<float> distances;
-      Field<std::uint8_t> borders;
-      distance_field(diagram, distances);
-      border_mask(diagram, borders);
-      measure_cells(diagram);
-      diagram.wait();
-    }
+  for (const Grid& grid : grids) {
+    const std::vector<Point> points = spread_points(weights.size(), 40, 40, grid.is_volume() ? 40 : 0);
+    Diagram diagram(device, grid);
+    Field<float> distances;
+    Field<std::uint8_t> borders;
+    exact_diagram(Seeds(device, grid, Points(points).weighted(weights.data())), diagram);
+    exact_diagram(Seeds(device, grid, points), diagram);
+    distance_field(diagram, distances);
+    border_mask(diagram, borders);
+    measure_cells(diagram);
+    diagram.wait();
   }
 }
 

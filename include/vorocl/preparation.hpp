@@ -20,10 +20,10 @@ struct PreparationPart {
 VOROCL_API std::size_t most_preparation_parts();
 
 /// Runs all methods and measures on small and large diagrams, so that the driver compiles and caches their
-/// kernels: of planes by both metrics, with no periodic axis, with a periodic x and with both; of volumes, with
-/// no periodic axis and with all; with weights, and tilted boxes, by the Euclidean metric. With PoCL it then
-/// keeps the binaries in binaries_folder(), where later processes find them and build nothing. Kernels of other
-/// options, such as spaced axes, are compiled when they are first used, as without a preparation.
+/// kernels: of planes by both metrics, with no periodic axis, with a periodic x and with both; of volumes,
+/// with no periodic axis and with all; with weights, and tilted boxes, by the Euclidean metric. With PoCL it
+/// then keeps the binaries in binaries_folder(), where later processes find them and build nothing. Kernels
+/// of other options, such as spaced axes, are compiled when they are first used, as without a preparation.
 ///
 /// Takes four minutes of a processor for all parts, and some seconds if all is there. Returns how many
 /// binaries are kept for the part. Throws Error if `part` has no such index, or a binary cannot be written.

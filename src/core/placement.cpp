@@ -199,13 +199,7 @@ std::shared_ptr<const PointPlacement> place_points(const Device& device, const W
   const auto place_of = [&](std::size_t id) {
     return given[id] - Place{in_fractions(window.x()), in_fractions(window.y())};
   };
-  const auto lag_of = [lags](std::size_t id) {
-    constexpr double unit = fractions_of_pixel * (fractions_of_pixel >> LAG_BITS);
-    return lags == nullptr ? 0.0 : unit * lags->of_seeds[id];
-  };
   const Images images(grid);
-  const Region region = labelled_region(window), centres = centres_of(region);
-  Rim rim(centres);
   std::vector<cl_int2> seeds(count + 1, absent_point);
   bool all_inside = true, all_near = true, seeds_fit = true, places_fit = true;
   for (std::size_t id = 0; id < count; ++id) {
@@ -219,22 +213,31 @@ std::shared_ptr<const PointPlacement> place_points(const Device& device, const W
     }
     all_inside = all_inside && place.x >= 0 && place.x < in_fractions(shown.width()) && place.y >= 0 &&
                  place.y < in_fractions(shown.height());
-    each_place(centres, images, place, [&](const Place& image) { rim.add_to_middle(image, lag_of(id)); });
   }
 
   std::vector<Place> places;
   std::vector<cl_uint> ids;
   const bool go_round = all_inside && kernels_go_round(window, shown);
+  const Region region = labelled_region(window);
   if (!go_round && !region.empty()) {
-    const Images near = images.within(rim.reach());
-    for (std::size_t id = 0; id < count; ++id) {
-      if (is_absent(given[id])) continue;
-      each_place(centres, near, place_of(id), [&](const Place& place) {
-        rim.add(place, lag_of(id));
-        places.push_back(place);
-        ids.push_back(static_cast<cl_uint>(id));
-      });
-    }
+    const Region centres = centres_of(region);
+    const auto each = [&](const Images& of_seeds, auto use) {
+      for (std::size_t id = 0; id < count; ++id) {
+        if (is_absent(given[id])) continue;
+        each_place(centres, of_seeds, place_of(id), [&](const Place& place) { use(place, id); });
+      }
+    };
+    const auto lag_of = [lags](std::size_t id) {
+      constexpr double unit = fractions_of_pixel * (fractions_of_pixel >> LAG_BITS);
+      return lags == nullptr ? 0.0 : unit * lags->of_seeds[id];
+    };
+    Rim rim(centres);
+    each(images, [&](const Place& place, std::size_t id) { rim.add_to_middle(place, lag_of(id)); });
+    each(images.within(rim.reach()), [&](const Place& place, std::size_t id) {
+      rim.add(place, lag_of(id));
+      places.push_back(place);
+      ids.push_back(static_cast<cl_uint>(id));
+    });
     std::size_t stay = 0;
     for (std::size_t i = 0; i < places.size(); ++i) {
       if (rim.rules_out(places[i], lag_of(ids[i]))) continue;

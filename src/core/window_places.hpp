@@ -58,7 +58,7 @@ struct Images {
                 : shift == 0 ? y / 2
                              : reach_of_lattice()) {}
 
-  /// Those alone that are no farther along an axis.
+  /// Those alone that are no farther than this from the region, along either axis.
   Images within(std::int64_t reach) const {
     Images near = *this;
     near.reach_x = std::min(reach_x, reach);

@@ -48,14 +48,14 @@ BOOST_AUTO_TEST_CASE(after_it_nothing_is_built_from_its_source) {
   const json prepared = json::parse(result.out);
   BOOST_TEST(prepared["binaries"] > 50);
   BOOST_TEST(prepared["folder"] == folder / "cache/vorocl/binaries");
-  std::string plane = "x,y,z,w\n", frame = "id x y z\n";
+  std::string points = "x,y,z,w\n", frame = "id x y z\n";
   for (int id = 0; id < 300; ++id) {
     const std::string place[] = {std::to_string(id * 7 % 20), std::to_string(id * 11 % 19),
                                  std::to_string(id * 13 % 17)};
-    plane += place[0] + ',' + place[1] + ',' + place[2] + ',' + std::to_string(id % 5) + '\n';
+    points += place[0] + ',' + place[1] + ',' + place[2] + ',' + std::to_string(id % 5) + '\n';
     frame += std::to_string(id) + ' ' + place[0] + ' ' + place[1] + ' ' + place[2] + '\n';
   }
-  folder.file("points.csv", plane);
+  folder.file("points.csv", points);
   const std::string before = "ITEM: TIMESTEP\n0\nITEM: NUMBER OF ATOMS\n300\nITEM: BOX BOUNDS ";
   folder.file("box.lammpstrj", before + "pp pp pp\n0 20\n0 20\n0 20\nITEM: ATOMS " + frame);
   folder.file("tilted.lammpstrj", before + "xy xz yz pp pp pp\n0 29 6\n0 22 3\n0 20 2\nITEM: ATOMS " + frame);

@@ -42,7 +42,7 @@ Device select_device(const std::string& request) {
   if (isatty(STDERR_FILENO) != 0) {
     device.on_compiling([] {
       print_note(
-          "the driver compiles kernels, which takes some seconds, once; \"vorocl prepare\" has all compiled "
+          "the driver compiles kernels, which takes some seconds, once; \"vorocl prepare\" has most compiled "
           "beforehand");
     });
   }
