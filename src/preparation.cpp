@@ -54,22 +54,13 @@ std::vector<Point> spread_points(std::size_t count, double width, double height,
   return points;
 }
 
-/// Measures of cells, which planes and volumes have. Returns how many cells there are.
-std::size_t measure_cells(const Diagram& diagram) {
+/// All measures of a diagram, and of how it stands to another one. Those of points have no whole distances.
+void measure(const Diagram& diagram, const Diagram& other, Snap snap) {
+  const bool is_plane = diagram.window().depth() == 1;
   CellSumsResult sums;
   CellShapesResult shapes;
   CellStatisticsResult statistics;
   AdjacencyResult pairs;
-  cell_sums(diagram, sums);
-  cell_shapes(diagram, shapes);
-  cell_statistics(diagram, statistics);
-  adjacency(diagram, pairs);
-  pairs.read_pairs();  // results launch kernels of their own where they are read
-  return shapes.size();
-}
-
-/// All measures of a diagram, and of how it stands to another one. Those of points have no whole distances.
-void measure(const Diagram& diagram, const Diagram& other, Snap snap) {
   VerticesResult vertices_found;
   Field<std::int32_t> squares;
   Field<float> distances;
@@ -77,18 +68,22 @@ void measure(const Diagram& diagram, const Diagram& other, Snap snap) {
   Field<std::uint32_t> mapped, expanded;
   SimilarityResult labels, within;
   DistanceErrorsResult wrong;
-  const std::size_t cells = measure_cells(diagram);
-  vertices(diagram, vertices_found);
+  cell_sums(diagram, sums);
+  cell_shapes(diagram, shapes);
+  cell_statistics(diagram, statistics);
+  adjacency(diagram, pairs);
+  pairs.read_pairs();  // results launch kernels of their own where they are read
+  if (is_plane) vertices(diagram, vertices_found);
   if (snap == Snap::to_pixels) distance_field(diagram, squares);
   distance_field(diagram, distances);
   border_mask(diagram, borders);
-  map_labels(diagram, std::vector<std::uint32_t>(cells), mapped);
+  map_labels(diagram, std::vector<std::uint32_t>(shapes.size()), mapped);
   expand_labels(diagram, 5, expanded);
   similarity(diagram, other, labels);
   similarity(diagram, other, 0.5, within);
-  distance_errors(diagram, other, wrong);
+  distance_errors(other, diagram, wrong);
   diagram.wait();
-  vertices_found.read();
+  if (is_plane) vertices_found.read();
 }
 
 /// Those of few seeds around one, which has more edges than a kernel has private room for, those of many, and
@@ -116,31 +111,17 @@ void prepare_exact_cells(const Device& device) {
 void prepare_volumes(const Device& device, bool are_periodic) {
   const Axes periodic = are_periodic ? Axes::xyz : Axes::none;
   for (const Grid& grid : {Grid(40, 40, 40, periodic), Grid(16, 300, 300, periodic)}) {
-    const Seeds seeds = Seeds::random(device, grid, 1000, 1);
     Diagram diagram(device, grid), other(device, grid);
-    for (const Method& each : methods()) {
-      if (each.volumes) each.run(seeds, diagram, {});
+    const std::vector<Point> points = spread_points(1000, 16, 40, 40);
+    for (const Snap snap : {Snap::to_pixels, Snap::none}) {
+      const Seeds seeds(device, grid, points, {Outside::count, snap});
+      for (const Method& each : methods()) {
+        if (each.volumes) each.run(seeds, other, {});
+      }
+      exact_diagram(seeds, diagram);
+      method("jfa").run(seeds, other, {});
+      measure(diagram, other, snap);
     }
-    method("jfa").run(seeds, other, {});
-    Field<std::int32_t> squares;
-    Field<float> distances;
-    Field<std::uint32_t> expanded;
-    SimilarityResult labels;
-    DistanceErrorsResult wrong;
-    distance_field(diagram, squares);
-    distance_field(diagram, distances);
-    expand_labels(diagram, 5, expanded);
-    similarity(diagram, other, labels);
-    distance_errors(other, diagram, wrong);
-    measure_cells(diagram);
-    diagram.wait();
-    const Seeds between_centres(device, grid, {{1.25, 2.5, 3.75}});
-    exact_diagram(between_centres, diagram);
-    method("jfa").run(between_centres, other, {});
-    distance_field(diagram, distances);
-    distance_errors(other, diagram, wrong);
-    measure_cells(diagram);
-    diagram.wait();
   }
 }
 
@@ -154,15 +135,11 @@ void prepare_weights_and_tilts(const Device& device, bool are_periodic) {
   weights.front() = 1;
   for (const Grid& grid : grids) {
     const std::vector<Point> points = spread_points(weights.size(), 40, 40, grid.is_volume() ? 40 : 0);
-    Diagram diagram(device, grid);
-    Field<float> distances;
-    Field<std::uint8_t> borders;
-    exact_diagram(Seeds(device, grid, Points(points).weighted(weights.data())), diagram);
-    exact_diagram(Seeds(device, grid, points), diagram);
-    distance_field(diagram, distances);
-    border_mask(diagram, borders);
-    measure_cells(diagram);
-    diagram.wait();
+    Diagram diagram(device, grid), other(device, grid);
+    exact_diagram(Seeds(device, grid, Points(points).weighted(weights.data())), other);
+    const Seeds seeds(device, grid, points);
+    for (Diagram* const each : {&diagram, &other}) exact_diagram(seeds, *each);
+    measure(diagram, other, Snap::none);
   }
 }
 

@@ -25,9 +25,9 @@ VOROCL_API std::size_t most_preparation_parts();
 /// then keeps the binaries in binaries_folder(), where later processes find them and build nothing. Kernels
 /// of other options, such as spaced axes, are compiled when they are first used, as without a preparation.
 ///
-/// Takes four minutes of a processor for all parts, and some seconds if all is there. Returns how many
-/// binaries are kept for the part. Throws Error if `part` has no such index, or a binary cannot be written.
-/// Waits.
+/// Takes four to five minutes of a processor for all parts, and some seconds if all is there. Returns how
+/// many binaries are kept for the part. Throws Error if `part` has no such index, or a binary cannot be
+/// written. Waits.
 VOROCL_API std::size_t prepare_programs(const Device& device, const PreparationPart& part = {});
 
 /// Where binaries are kept: $XDG_CACHE_HOME/vorocl/binaries, or ~/.cache/vorocl/binaries, a folder of the
