@@ -15,8 +15,9 @@ def prepare(request: str = "") -> int:
     """Compile the kernels of all methods and measures, once per user and device.
 
     The first call of a function waits some seconds for the driver's compiler. After this it does not, in this process
-    and in later ones. The work is done by one process per processor, because a driver compiles in one thread at a time.
-    It takes some minutes of a processor, and some seconds if all is there.
+    and in later ones, unless its options are rare, such as those of spaced grids. The work is done by one process per
+    processor, because a driver compiles in one thread at a time. It takes some minutes of a processor, and some seconds
+    if all is there.
 
     With PoCL the programs are kept as binaries in ``$XDG_CACHE_HOME/vorocl/binaries``, or
     ``~/.cache/vorocl/binaries``, a folder of the user's alone; other drivers have caches of their own. The environment

@@ -260,8 +260,10 @@ std::shared_ptr<const PointPlacement> place_points(const Device& device, const W
     return as_int2({pixel_of(place.x), pixel_of(place.y)});
   };
   const bool seeds_in_pixels = !seeds_fit && !are_points;
-  for (std::size_t id = 0; seeds_in_pixels && id < count; ++id) {
-    if (!is_absent(given[id])) seeds[id] = in_whole_pixels(place_of(id));
+  if (seeds_in_pixels) {
+    for (std::size_t id = 0; id < count; ++id) {
+      if (!is_absent(given[id])) seeds[id] = in_whole_pixels(place_of(id));
+    }
   }
   PointPlacement placed = placement_of(window, shown, allocate_with(device, seeds, "the seeds"), count);
   if (go_round) return std::make_shared<const PointPlacement>(std::move(placed));
