@@ -63,40 +63,50 @@ static inline float8 distances_of(boxes_t boxes, rough_t low, rough_t high) {
 #endif
 }
 
-// Which of eight boxes, of those that count, may hold sites that cut, the nearest first.
-static inline uint8 order_of_boxes(const cell_t* cell, boxes_t boxes, int8 that_count, float end) {
+// Which of eight boxes, of those that count, may hold sites that cut. The order is that of their distances from the
+// cell's site; or `by_cut` those come first that cut off most, as they are far nearer to a vertex than the site is.
+static inline uint8 order_of_boxes(const cell_t* cell, boxes_t boxes, int8 that_count, float end, bool by_cut) {
   const float8 away = distances_of(boxes, (rough_t)(0), (rough_t)(0)), more = with_margin(boxes.leads);
   const float8 distances = cell->lags != 0 ? bisectors_at(away, boxes.leads) : away;
   const int8 is_near = (distances < end) & that_count;
   if (bits_of_ints(is_near) == 0) return FAR;
   int8 may_cut = 0;
+  float8 ratios = INFINITY;
   for (int k = 0; k < vertices_of(cell); ++k) {
     float reach;
     const rough_t v = vertex_of(cell, k, &reach);
-    may_cut |= distances_of(boxes, v, v) <= reach + more;
+    const float8 from_vertex = distances_of(boxes, v, v);
+    may_cut |= from_vertex <= reach + more;
+    if (by_cut) ratios = fmin(ratios, (from_vertex - more) / reach);
   }
-  return order_of(distances, may_cut & is_near);
+  return order_of(by_cut ? fmax(ratios, 0.0f) : distances, may_cut & is_near);
 }
 
 static inline uint8 order_of_group(const cell_t* cell, const tree_t* tree, int level, uint group, place_t from,
-                                   float end) {
+                                   float end, bool by_cut) {
   return order_of_boxes(cell, boxes_of_group(tree, level, group, from, cell->lag), are_there(tree->count, level, group),
-                        end);
+                        end, by_cut);
 }
 
-// Cuts a cell by the sites of a leaf, the nearest first. `from` is the cell's site as the image sees it. Returns behind
-// which squared distance nothing can cut.
-static inline float cut_by_leaf(cell_t* cell, const tree_t* tree, uint leaf, place_t from, uint site, int image,
-                                float end) {
+// What numbers of such an order are below, if nothing behind `end`, a squared distance, can cut.
+static inline uint end_of_order(float end, bool by_cut) { return by_cut ? FAR : as_uint(end); }
+
+// Cuts a cell by the sites of a leaf, in that order. `from` is the cell's site as the image sees it. Returns whether
+// anything has been cut off.
+static inline bool cut_by_leaf(cell_t* cell, const tree_t* tree, uint leaf, place_t from, uint site, int image,
+                               float* end, bool by_cut) {
+  bool is_cut = false;
   const boxes_t points = boxes_from(tree->sites, leaf, 1, from, leads_of(tree->lags, leaf, cell->lag));
-  uint8 order = order_of_boxes(cell, points, first_of(tree->count - leaf * FAN), end);
-  for (uint next = least_of(order); next < as_uint(end); next = least_of(order)) {
+  uint8 order = order_of_boxes(cell, points, first_of(tree->count - leaf * FAN), *end, by_cut);
+  for (uint next = least_of(order); next < end_of_order(*end, by_cut); next = least_of(order)) {
     order = without(order, next);
     const uint other = leaf * FAN + (next & (FAN - 1));
     if (other == site && image == 0) continue;
-    if (cut(cell, site_at(tree, other) - from, other, image)) end = end_of(cell);
+    if (!cut(cell, site_at(tree, other) - from, other, image)) continue;
+    *end = end_of(cell);
+    is_cut = true;
   }
-  return end;
+  return is_cut;
 }
 
 // --- what the cells of a leaf share ---
@@ -111,6 +121,7 @@ typedef struct {
   double lag;         // the greatest of the leaf's sites
   int count;          // of leaves
   float distance;     // 0: there are too many
+  bool is_shared;     // by all of the leaf's sites
   float least;        // of the squared distances of bisectors with sites that are not listed
 } __attribute__((aligned(64))) near_t;
 

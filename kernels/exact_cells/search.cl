@@ -45,15 +45,29 @@ static inline bool list_near(near_t* near, const tree_t* tree, float distance) {
   return true;
 }
 
-static inline void find_near(near_t* near, const tree_t* tree, uint leaf) {
-  near->base = site_at(tree, leaf * FAN);
-  near->lag = most_lag(tree->lags, leaf, tree->count);
-  float distance = find_extent(near, tree, leaf);
-  for (int tries = 0; tries < 6; ++tries, distance *= 0.75f) {
+// Tries ever shorter distances. Without a list where even the shortest is too long.
+static inline void list_nearest(near_t* near, const tree_t* tree, float distance, int most_tries, float shorter) {
+  for (int tries = 0; tries < most_tries; ++tries, distance *= shorter) {
     if (list_near(near, tree, distance)) return;
   }
   near->count = 0;
   near->distance = near->least = 0;
+}
+
+// Around a leaf, for all of its sites.
+static inline void find_near(near_t* near, const tree_t* tree, uint leaf) {
+  near->base = site_at(tree, leaf * FAN);
+  near->lag = most_lag(tree->lags, leaf, tree->count);
+  list_nearest(near, tree, find_extent(near, tree, leaf), 6, 0.75f);
+  near->is_shared = near->count > 0;
+}
+
+// Around one of its sites, where there are too many around the leaf: it may be long, and most of it empty.
+static inline void find_near_site(near_t* near, const tree_t* tree, uint site) {
+  const float extent = find_extent(near, tree, site >> FAN_BITS);
+  near->low = near->high = rough_of(site_at(tree, site) - near->base);
+  near->lag = lag_of(tree->lags, site);
+  list_nearest(near, tree, extent / 2, 16, 0.5f);
 }
 
 // --- farther away ---
@@ -65,23 +79,29 @@ static inline bool is_listed(const near_t* near, uint leaf, int image) {
   return false;
 }
 
-// Cuts a cell by all sites that are not in the list, the nearest box first.
+// Cuts a cell by all sites that are not in the list. In planes those that cut off most come first, again and again
+// until a leaf cuts nothing. Beside a curve of many sites a cell is long and thin: each of the nearest sites would cut
+// a little off its far end. (A cell without a list has no sides yet, and so would have thousands.)
 static inline void cut_by_tree(cell_t* cell, const tree_t* tree, const near_t* near, place_t at, uint site, float end) {
+  const bool by_cut = DIMENSIONS == 2 && near->count > 0;
   for (int image = 0; image < tree->images; ++image) {
     const place_t from = at - shift_of(tree, image);
+    bool again = by_cut;
     walk_t walk;
-    begin_walk(&walk, tree->top, 0, order_of_group(cell, tree, tree->top, 0, from, end));
-    while (goes_on(&walk, tree->top, as_uint(end))) {
+    begin_walk(&walk, tree->top, 0, order_of_group(cell, tree, tree->top, 0, from, end, by_cut));
+    while (goes_on(&walk, tree->top, end_of_order(end, by_cut))) {
       if (walk.level > 1) {
-        enter(&walk, order_of_group(cell, tree, walk.level - 1, walk.node, from, end));
+        enter(&walk, order_of_group(cell, tree, walk.level - 1, walk.node, from, end, by_cut));
       } else if (!is_listed(near, walk.node, image)) {
-        end = cut_by_leaf(cell, tree, walk.node, from, site, image, end);
+        again &= cut_by_leaf(cell, tree, walk.node, from, site, image, &end, by_cut);
+        if (again) begin_walk(&walk, tree->top, 0, order_of_group(cell, tree, tree->top, 0, from, end, by_cut));
       }
     }
   }
 }
 
-static inline void cut_by_all(cell_t* cell, const tree_t* tree, const near_t* near, uint site) {
+static inline void cut_by_all(cell_t* cell, const tree_t* tree, near_t* near, uint site) {
+  if (!near->is_shared) find_near_site(near, tree, site);
   const place_t at = site_at(tree, site);
   begin_cell(cell, tree, at, site);
   const float end = near->count > 0 ? cut_by_near(cell, tree, near, at, site) : end_of(cell);

@@ -4,7 +4,7 @@
 //
 //   c++ -std=c++17 -O3 -march=native exact_cells_peers.cpp $(pkg-config --cflags --libs vorocl) -lvoro++
 //   -lgmp -o peers
-//   ./peers uniform|periodic|lattice COUNT [REPEAT]
+//   ./peers uniform|periodic|lattice|wave|ellipse COUNT [REPEAT]
 //   ./peers clusters COUNT [REPEAT] CITIES.csv    (samples/cities-5000.csv)
 //
 // VoroCL begins with points in the host's memory, and ends when all measures and polygons are on the device.
@@ -81,6 +81,17 @@ std::vector<Point> clusters(std::size_t count, const char* path) {
   return points;
 }
 
+/// Points close to each other along a curve, of which this is the place at a fraction of its length.
+template <typename Place>
+std::vector<Point> curve(std::size_t count, Place place) {
+  std::vector<Point> points;
+  for (std::size_t i = 0; i < count; ++i) {
+    const Point at = place(static_cast<double>(i) / static_cast<double>(count));
+    points.push_back({std::floor(at.x * side), std::floor(at.y * side)});
+  }
+  return points;
+}
+
 double clock_ms() {
   return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now().time_since_epoch())
       .count();
@@ -130,6 +141,14 @@ int main(int count_of_arguments, char** arguments) {
   set.is_periodic = kind == "periodic";
   if (kind == "lattice") set.points = lattice(count);
   if (kind == "uniform" || kind == "periodic") set.points = uniform(count);
+  if (kind == "wave")
+    set.points = curve(count, [](double at) { return Point{at, 0.5 + 0.25 * std::sin(12 * at)}; });
+  if (kind == "ellipse") {
+    set.points = curve(count, [](double at) {
+      const double angle = 2 * 3.14159265358979323846 * at;
+      return Point{0.5 + 0.45 * std::cos(angle), 0.5 + 0.2 * std::sin(angle)};
+    });
+  }
   if (kind == "clusters" && count_of_arguments > 4) {
     set.height = side / 2;
     set.points = clusters(count, arguments[4]);
@@ -152,8 +171,8 @@ int main(int count_of_arguments, char** arguments) {
   programs.push_back({"CGAL's Delaunay triangulation", [&] {
                         CGAL::Delaunay_triangulation_2<Kernel> triangulation(points.begin(), points.end());
                       }});
-  if (kind != "clusters")
-    programs.push_back({"Voro++", [&] { with_voro(set); }});  // a grid of blocks is not for these
+  if (set.is_periodic || kind == "uniform" || kind == "lattice")
+    programs.push_back({"Voro++", [&] { with_voro(set); }});  // a grid of blocks is not for the others
   programs.front().run();                                     // builds its kernels, and makes its buffers
   for (int i = 0; i < repeat; ++i) {
     for (Program& program : programs) {

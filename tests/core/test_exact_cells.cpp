@@ -533,11 +533,26 @@ std::vector<Position> star(int rays) {
   return positions;
 }
 
+/// Points close to each other along curves, whose cells are long and thin: a wave, and an ellipse around its
+/// middle.
+std::vector<Position> curves(std::size_t count) {
+  std::vector<Position> positions;
+  for (std::size_t i = 0; i < count; ++i) {
+    const double at = static_cast<double>(i) / static_cast<double>(count),
+                 angle = 4 * 3.14159265358979323846 * at;
+    const Point point = i % 2 == 0 ? Point{at, 0.5 + 0.25 * std::sin(12 * at)}
+                                   : Point{0.5 + 0.45 * std::cos(angle), 0.5 + 0.2 * std::sin(angle)};
+    positions.push_back({std::llround(point.x * side), std::llround(point.y * side)});
+  }
+  return positions;
+}
+
 }  // namespace
 
 BOOST_AUTO_TEST_CASE(large_sets_have_the_edges_that_another_library_finds) {
   const Set sets[] = {{"random", side, side, without_doubles(random_positions(side, side, 20000, 6))},
                       {"clusters", side, side, without_doubles(clusters(20000))},
+                      {"curves", side, side, without_doubles(curves(20000))},
                       {"star", side, side, star(3000)}};
   for (const Set& set : sets) {
     const ExactCellsResult result = cells_of(set, Axes::none);
