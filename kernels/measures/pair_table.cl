@@ -46,10 +46,12 @@ static inline bool takes(global uint* word, uint id) {
 // Adds to the pair of a and b, a < b, in the table. The pairs of one cell are side by side first, for its borders are
 // found one soon after the other. Where these slots are taken the others are everywhere, and far apart: where few cells
 // have many neighbours, all slots beside those are taken too.
+// Once a pair has found no room, the others are counted: the host will find all of them again in a larger table.
 static inline void add_to_table(uint a, uint b, uint size, PAIR_PARAMETERS) {
   (void)lists;
   const uint hash = hash_of(a, b), step = hash * 0x9e3779b1u | 1u;
-  for (uint probe = 0; probe < MOST_PROBES; ++probe) {
+  const uint most_probes = *overflow == 0 ? MOST_PROBES : 0;
+  for (uint probe = 0; probe < most_probes; ++probe) {
     const uint beside = a * table_size + ((hash + probe) & (table_size - 1));
     global uint* const slot = table + 3 * (size_t)((probe < table_size ? beside : hash + probe * step) & mask);
     if (takes(slot, a) && takes(slot + 1, b)) {
@@ -57,7 +59,7 @@ static inline void add_to_table(uint a, uint b, uint size, PAIR_PARAMETERS) {
       return;
     }
   }
-  atomic_or(overflow, 1u);  // the host will find all of them again in a larger table
+  atomic_inc(overflow);
 }
 
 // Where a list has the cell b among its first `count`; `count` if it has not. It looks at so many ids, or more.

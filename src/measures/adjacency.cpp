@@ -30,7 +30,7 @@ struct SlotsOfCell {
   cl_uint list, table;
 };
 
-std::size_t first_slots(std::size_t wanted) {
+std::size_t slots_for(std::size_t wanted) {
   std::size_t slots = least_slots;
   while (slots < wanted && slots < most_slots) slots *= 2;
   return slots;
@@ -73,7 +73,7 @@ std::pair<cl::Event, cl::Event> AdjacencyState::find(const MeasuredDiagram& diag
   options.tilted = diagram.is_shifted();
   const Blocks blocks(device, diagram.grid);
   const SlotsOfCell slots(diagram, blocks);
-  slot_count = in_slots > 0 ? in_slots : first_slots(std::size_t{slots.table} * count);
+  slot_count = in_slots > 0 ? in_slots : slots_for(std::size_t{slots.table} * count);
   large_enough = listed_all = false;
   make_room(lists, device, std::size_t{2} * slots.list * count * word);
   make_room(table, device, slot_count * words_per_pair * word);
@@ -115,7 +115,7 @@ void AdjacencyState::settle() {
     if (slot_count == most_slots) {
       throw Error("the cells of the diagram have more neighbours than can be counted");
     }
-    find(*of, 2 * slot_count);
+    find(*of, slots_for(slot_count + words[0]));
   }
 }
 
