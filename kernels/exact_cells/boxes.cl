@@ -63,9 +63,12 @@ static inline float8 distances_of(boxes_t boxes, rough_t low, rough_t high) {
 #endif
 }
 
-// Which of eight boxes, of those that count, may hold sites that cut. The order is that of their distances from the
-// cell's site; or `by_cut` those come first that cut off most, as they are far nearer to a vertex than the site is.
-static inline uint8 order_of_boxes(const cell_t* cell, boxes_t boxes, int8 that_count, float end, bool by_cut) {
+// Which boxes or sites come first: those that are nearest to the cell's site, up to the `end` behind which none cuts; or
+// those that may cut deepest, which are far nearer to a vertex of the cell than its site is.
+typedef enum { NEAREST, DEEPEST } first_t;
+
+// Which of eight boxes, of those that count, may hold sites that cut, in order.
+static inline uint8 order_of_boxes(const cell_t* cell, boxes_t boxes, int8 that_count, float end, first_t first) {
   const float8 away = distances_of(boxes, (rough_t)(0), (rough_t)(0)), more = with_margin(boxes.leads);
   const float8 distances = cell->lags != 0 ? bisectors_at(away, boxes.leads) : away;
   const int8 is_near = (distances < end) & that_count;
@@ -77,28 +80,28 @@ static inline uint8 order_of_boxes(const cell_t* cell, boxes_t boxes, int8 that_
     const rough_t v = vertex_of(cell, k, &reach);
     const float8 from_vertex = distances_of(boxes, v, v);
     may_cut |= from_vertex <= reach + more;
-    if (by_cut) ratios = fmin(ratios, (from_vertex - more) / reach);
+    if (first == DEEPEST) ratios = fmin(ratios, (from_vertex - more) / reach);
   }
-  return order_of(by_cut ? fmax(ratios, 0.0f) : distances, may_cut & is_near);
+  return order_of(first == DEEPEST ? fmax(ratios, 0.0f) : distances, may_cut & is_near);
 }
 
 static inline uint8 order_of_group(const cell_t* cell, const tree_t* tree, int level, uint group, place_t from,
-                                   float end, bool by_cut) {
+                                   float end, first_t first) {
   return order_of_boxes(cell, boxes_of_group(tree, level, group, from, cell->lag), are_there(tree->count, level, group),
-                        end, by_cut);
+                        end, first);
 }
 
-// What numbers of such an order are below, if nothing behind `end`, a squared distance, can cut.
-static inline uint end_of_order(float end, bool by_cut) { return by_cut ? FAR : as_uint(end); }
+// Where such an order ends.
+static inline uint end_of_order(float end, first_t first) { return first == DEEPEST ? FAR : as_uint(end); }
 
 // Cuts a cell by the sites of a leaf, in that order. `from` is the cell's site as the image sees it. Returns whether
 // anything has been cut off.
 static inline bool cut_by_leaf(cell_t* cell, const tree_t* tree, uint leaf, place_t from, uint site, int image,
-                               float* end, bool by_cut) {
+                               float* end, first_t first) {
   bool is_cut = false;
   const boxes_t points = boxes_from(tree->sites, leaf, 1, from, leads_of(tree->lags, leaf, cell->lag));
-  uint8 order = order_of_boxes(cell, points, first_of(tree->count - leaf * FAN), *end, by_cut);
-  for (uint next = least_of(order); next < end_of_order(*end, by_cut); next = least_of(order)) {
+  uint8 order = order_of_boxes(cell, points, first_of(tree->count - leaf * FAN), *end, first);
+  for (uint next = least_of(order); next < end_of_order(*end, first); next = least_of(order)) {
     order = without(order, next);
     const uint other = leaf * FAN + (next & (FAN - 1));
     if (other == site && image == 0) continue;
@@ -111,14 +114,14 @@ static inline bool cut_by_leaf(cell_t* cell, const tree_t* tree, uint leaf, plac
 
 // --- what the cells of a leaf share ---
 
-// The leaves, and images of them, within a distance of a leaf's box.
+// The leaves, and images of them, within a distance of a leaf's box, or of one of its sites.
 typedef struct {
   NEAR_LISTS
   uint leaves[MOST_NEAR];
   ushort images[MOST_NEAR];
-  place_t base;       // the leaf's first site
-  rough_t low, high;  // its box, as seen from there
-  double lag;         // the greatest of the leaf's sites
+  place_t base;       // the leaf's first site, or the one
+  rough_t low, high;  // the leaf's box, as seen from there, or the site's place
+  double lag;         // the greatest of the leaf's sites, or that of the one
   int count;          // of leaves
   float distance;     // 0: there are too many
   bool is_shared;     // by all of the leaf's sites

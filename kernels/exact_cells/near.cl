@@ -34,7 +34,7 @@ static inline float cut_by_near(cell_t* cell, const tree_t* tree, const near_t* 
                            convert_float8(vload8(0, near->lower + first) - from.y),
                            convert_float8(vload8(0, near->upper + first) - from.y),
                            convert_float8(cell->lag - vload8(0, near->lags + first))};
-    orders[first / FAN] = order_of_boxes(cell, boxes, first_of((uint)(near->count - first)), end, false);
+    orders[first / FAN] = order_of_boxes(cell, boxes, first_of((uint)(near->count - first)), end, NEAREST);
   }
   while (true) {
     uint next = FAR;
@@ -47,7 +47,7 @@ static inline float cut_by_near(cell_t* cell, const tree_t* tree, const near_t* 
     if (next >= as_uint(end)) return end;
     orders[first / FAN] = without(orders[first / FAN], next);
     const int k = first + (int)(next & (FAN - 1)), image = near->images[k];
-    cut_by_leaf(cell, tree, near->leaves[k], at - shift_of(tree, image), site, image, &end, false);
+    cut_by_leaf(cell, tree, near->leaves[k], at - shift_of(tree, image), site, image, &end, NEAREST);
   }
 }
 

@@ -115,7 +115,9 @@ static inline double4 crossings(line_t before, line_t line, line_t after) {
   return (fma(c, across, -rounded) + fma(-other_c, other_across, rounded)) / d.s0011;
 }
 
-#define ROUGH_MARGIN 1.000002f  // floats make an error of less than a millionth in a squared distance
+// Floats make an error of less than a millionth in a squared distance (16 x 2^-24), and numbers of an order lose
+// another 2^-20 of it.
+#define ROUGH_MARGIN 1.000002f
 
 // Returns its squared distance, with the margin.
 static inline float set_vertex(cell_t* cell, int k, double2 vertex) {

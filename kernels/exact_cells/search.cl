@@ -1,7 +1,7 @@
 // Which sites a cell is cut by: those of the leaves, and of images of them, around its own, which the cells of a leaf
-// share; then, if it reaches farther, those of the whole tree of boxes. The host has put the sites in Hilbert's order
-// (src/exact_cells/sites.hpp); each eight are a leaf, and each eight boxes have one around them, up to one group of at
-// most eight.
+// share if they are not too many; then, if it reaches farther, those of the whole tree of boxes. The host has put the
+// sites in Hilbert's order (src/exact_cells/sites.hpp); each eight are a leaf, and each eight boxes have one around
+// them, up to one group of at most eight.
 
 #ifndef VOROCL_EXACT_CELLS_SEARCH
 #define VOROCL_EXACT_CELLS_SEARCH
@@ -54,7 +54,7 @@ static inline void list_nearest(near_t* near, const tree_t* tree, float distance
   near->distance = near->least = 0;
 }
 
-// Around a leaf, for all of its sites.
+// Around a leaf, for all of its sites. Floats are right to the 10^-7 of its length: distances are a quarter at least.
 static inline void find_near(near_t* near, const tree_t* tree, uint leaf) {
   near->base = site_at(tree, leaf * FAN);
   near->lag = most_lag(tree->lags, leaf, tree->count);
@@ -62,11 +62,13 @@ static inline void find_near(near_t* near, const tree_t* tree, uint leaf) {
   near->is_shared = near->count > 0;
 }
 
-// Around one of its sites, where there are too many around the leaf: it may be long, and most of it empty.
+// Around one of its sites, where there are too many around the leaf: it may be long, and most of it empty. All is as
+// seen from the site, for distances may be tiny beside the leaf.
 static inline void find_near_site(near_t* near, const tree_t* tree, uint site) {
-  const float extent = find_extent(near, tree, site >> FAN_BITS);
-  near->low = near->high = rough_of(site_at(tree, site) - near->base);
+  near->base = site_at(tree, site);
   near->lag = lag_of(tree->lags, site);
+  const float extent = find_extent(near, tree, site >> FAN_BITS);
+  near->low = near->high = 0;
   list_nearest(near, tree, extent / 2, 16, 0.5f);
 }
 
@@ -79,22 +81,23 @@ static inline bool is_listed(const near_t* near, uint leaf, int image) {
   return false;
 }
 
-// Cuts a cell by all sites that are not in the list. In planes those that cut off most come first, again and again
-// until a leaf cuts nothing. Beside a curve of many sites a cell is long and thin: each of the nearest sites would cut
-// a little off its far end. (A cell without a list has no sides yet, and so would have thousands.)
+// Cuts a cell by all sites that are not in the list. In planes the deepest cuts come first, and the walk begins anew
+// behind each leaf that cuts, until one does not. Beside a curve of many sites a cell is long and thin: each of the
+// nearest sites would cut a little off its far end. (A cell without a list is still the whole rectangle: before its
+// near sides all sites of a curve far away would be sides of it.)
 static inline void cut_by_tree(cell_t* cell, const tree_t* tree, const near_t* near, place_t at, uint site, float end) {
-  const bool by_cut = DIMENSIONS == 2 && near->count > 0;
+  const first_t first = DIMENSIONS == 2 && near->count > 0 ? DEEPEST : NEAREST;
   for (int image = 0; image < tree->images; ++image) {
     const place_t from = at - shift_of(tree, image);
-    bool again = by_cut;
+    bool again = first == DEEPEST;
     walk_t walk;
-    begin_walk(&walk, tree->top, 0, order_of_group(cell, tree, tree->top, 0, from, end, by_cut));
-    while (goes_on(&walk, tree->top, end_of_order(end, by_cut))) {
+    begin_walk(&walk, tree->top, 0, order_of_group(cell, tree, tree->top, 0, from, end, first));
+    while (goes_on(&walk, tree->top, end_of_order(end, first))) {
       if (walk.level > 1) {
-        enter(&walk, order_of_group(cell, tree, walk.level - 1, walk.node, from, end, by_cut));
+        enter(&walk, order_of_group(cell, tree, walk.level - 1, walk.node, from, end, first));
       } else if (!is_listed(near, walk.node, image)) {
-        again &= cut_by_leaf(cell, tree, walk.node, from, site, image, &end, by_cut);
-        if (again) begin_walk(&walk, tree->top, 0, order_of_group(cell, tree, tree->top, 0, from, end, by_cut));
+        again &= cut_by_leaf(cell, tree, walk.node, from, site, image, &end, first);
+        if (again) begin_walk(&walk, tree->top, 0, order_of_group(cell, tree, tree->top, 0, from, end, first));
       }
     }
   }

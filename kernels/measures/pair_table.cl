@@ -46,7 +46,8 @@ static inline bool takes(global uint* word, uint id) {
 // Adds to the pair of a and b, a < b, in the table. The pairs of one cell are side by side first, for its borders are
 // found one soon after the other. Where these slots are taken the others are everywhere, and far apart: where few cells
 // have many neighbours, all slots beside those are taken too.
-// Once a pair has found no room, the others are counted: the host will find all of them again in a larger table.
+// Once a pair has found no room, pieces of borders are counted alone, also those of pairs that are in the table: the
+// host will find all of them again in a larger one.
 static inline void add_to_table(uint a, uint b, uint size, PAIR_PARAMETERS) {
   (void)lists;
   const uint hash = hash_of(a, b), step = hash * 0x9e3779b1u | 1u;

@@ -1,5 +1,6 @@
 #include "vorocl/adjacency.hpp"
 
+#include <algorithm>
 #include <atomic>
 
 #include "measures/measurement.hpp"
@@ -12,6 +13,7 @@ namespace {
 constexpr const char* kernel_file = "measures/adjacency.cl";
 constexpr std::size_t least_slots = 1024;
 constexpr std::size_t most_slots = std::size_t{1} << 31;
+constexpr std::size_t most_growth = 8;  // of a table that was too small
 constexpr std::size_t words_per_pair = 3;
 constexpr cl_uint no_pair = 0xffffffffu;  // NO_PAIR of pair_table.cl
 
@@ -115,7 +117,10 @@ void AdjacencyState::settle() {
     if (slot_count == most_slots) {
       throw Error("the cells of the diagram have more neighbours than can be counted");
     }
-    find(*of, slots_for(slot_count + words[0]));
+    // At most so many pairs are new as pieces of borders found no room, and at most two of all cells are
+    // pairs.
+    const std::size_t count = of->count(), pieces = words[0], most = most_growth * slot_count;
+    find(*of, slots_for(std::min({slot_count + pieces, std::max(count * count, 2 * slot_count), most})));
   }
 }
 

@@ -454,6 +454,37 @@ BOOST_AUTO_TEST_CASE(outliers_leave_a_crowd_its_cells) {
   }
 }
 
+/// A leaf with one site far from the others is so long that none of its cells can share a list with it, and a
+/// list around one of them reaches to a 2^16th of it. There lies a site that cuts, just within reach or
+/// beyond it; those around it are so many that no longer list has room.
+BOOST_AUTO_TEST_CASE(lists_that_are_tiny_beside_their_leaf_miss_no_cut) {
+  constexpr std::int64_t length = 1 << 30;
+  std::mt19937_64 random(5);
+  for (const bool is_weighted : {false, true}) {
+    for (int i = 0; i < 100; ++i) {
+      const std::int64_t x =
+          (length / 80 + below(random, length / 400)) * 64 + 31;  // floats are multiples of 64 there
+      const std::int64_t y = 40000 + below(random, 60000);
+      const std::int64_t way = ((x >> 16) - 40 + below(random, 60)) / 64 * 64 + 2, half = way / 2 + 2;
+      Set set = {"a spot " + std::to_string(i), length, length, {{0, y}}};
+      const auto add = [&](std::int64_t along, std::int64_t across) {
+        set.positions.push_back({x + along, y + across});
+      };
+      add(0, 0);
+      for (const std::int64_t across : {half, -half}) add(half, across);
+      for (const std::int64_t across : {half, -half}) add(0, across - across / 10);
+      add(half / 10 - half, 0);
+      add(way, 0);
+      for (int k = 0; k < 400; ++k) add(way + 1 + below(random, 14000), below(random, 30000) - 15000);
+      if (is_weighted) {
+        set.weights.resize(set.positions.size());
+        set.weights.back() = -1;
+      }
+      check_as_a_whole(cells_of(set, Axes::none), set.name);
+    }
+  }
+}
+
 namespace {
 
 using Ids = std::pair<std::uint32_t, std::uint32_t>;
@@ -539,7 +570,7 @@ std::vector<Position> curves(std::size_t count) {
   std::vector<Position> positions;
   for (std::size_t i = 0; i < count; ++i) {
     const double at = static_cast<double>(i) / static_cast<double>(count),
-                 angle = 4 * 3.14159265358979323846 * at;
+                 angle = 2 * 3.14159265358979323846 * at;
     const Point point = i % 2 == 0 ? Point{at, 0.5 + 0.25 * std::sin(12 * at)}
                                    : Point{0.5 + 0.45 * std::cos(angle), 0.5 + 0.2 * std::sin(angle)};
     positions.push_back({std::llround(point.x * side), std::llround(point.y * side)});

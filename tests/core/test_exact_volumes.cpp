@@ -533,6 +533,36 @@ BOOST_AUTO_TEST_CASE(small_sets_have_the_cells_of_rational_numbers) {
   }
 }
 
+/// As in planes (test_exact_cells.cpp).
+BOOST_AUTO_TEST_CASE(lists_that_are_tiny_beside_their_leaf_miss_no_cut) {
+  constexpr std::int64_t unit = 65536;  // of floats that are so far away
+  std::mt19937_64 random(5);
+  const auto below = [&](std::int64_t end) {
+    return static_cast<std::int64_t>(random() % static_cast<std::uint64_t>(end));
+  };
+  for (int i = 0; i < 60; ++i) {
+    const std::int64_t x = side / 5 * 4 / unit * unit + below(side / unit / 6) * unit + unit / 2 - 1;
+    const std::int64_t y = 20000000 + below(60000000), z = 20000000 + below(60000000);
+    const std::int64_t reach = x / unit * 3 / 8;
+    const std::int64_t way = (reach - 2000 - below(55000)) / unit * unit + 2, half = way / 2 + 200;
+    const std::int64_t slanted = half * 7071 / 10000, shorter = half - half / 10;
+    Set set = {"a spot", {side, side, side}, {{0, y, z}}};
+    const auto add = [&](std::int64_t along, std::int64_t across, std::int64_t up) {
+      set.positions.push_back({x + along, y + across, z + up});
+    };
+    add(0, 0, 0);
+    for (const std::int64_t across : {slanted, -slanted}) {
+      for (const std::int64_t up : {slanted, -slanted}) add(half, across, up);
+    }
+    for (const std::int64_t sideways : {shorter, -shorter}) add(0, sideways, 0), add(0, 0, sideways);
+    add(-shorter, 0, 0);
+    add(way, 0, 0);
+    for (int k = 0; k < 1300; ++k)
+      add(way + 1 + below(reach * 7 / 10), below(2 * reach) - reach, below(2 * reach) - reach);
+    check_as_a_whole(cells_of(set, Axes::none));
+  }
+}
+
 BOOST_AUTO_TEST_CASE(clusters_and_lattices_have_the_cells_of_rational_numbers) {
   const Position cube = {side, side, side};
   const Set sets[] = {{"clusters", cube, clusters(997)},
