@@ -63,8 +63,8 @@ static inline float8 distances_of(boxes_t boxes, rough_t low, rough_t high) {
 #endif
 }
 
-// Which boxes or sites come first: those that are nearest to the cell's site, up to the `end` behind which none cuts; or
-// those that may cut deepest, which are far nearer to a vertex of the cell than its site is.
+// Which boxes or sites come first: those that are nearest to the cell's site, up to the `end` behind which none cuts;
+// or those that may cut deepest, which are far nearer to a vertex of the cell than its site is.
 typedef enum { NEAREST, DEEPEST } first_t;
 
 // Which of eight boxes, of those that count, may hold sites that cut, in order.

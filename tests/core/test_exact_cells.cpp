@@ -460,7 +460,7 @@ BOOST_AUTO_TEST_CASE(outliers_leave_a_crowd_its_cells) {
 BOOST_AUTO_TEST_CASE(lists_that_are_tiny_beside_their_leaf_miss_no_cut) {
   constexpr std::int64_t length = 1 << 30;
   std::mt19937_64 random(5);
-  for (const bool is_weighted : {false, true}) {
+  for (const int lags : {0, 1, 2}) {  // none, that of one site, those of all
     for (int i = 0; i < 100; ++i) {
       const std::int64_t x =
           (length / 80 + below(random, length / 400)) * 64 + 31;  // floats are multiples of 64 there
@@ -476,10 +476,12 @@ BOOST_AUTO_TEST_CASE(lists_that_are_tiny_beside_their_leaf_miss_no_cut) {
       add(half / 10 - half, 0);
       add(way, 0);
       for (int k = 0; k < 400; ++k) add(way + 1 + below(random, 14000), below(random, 30000) - 15000);
-      if (is_weighted) {
+      if (lags > 0) {
         set.weights.resize(set.positions.size());
         set.weights.back() = -1;
       }
+      for (std::size_t k = 0; lags == 2 && k < set.weights.size(); ++k)
+        set.weights[k] = static_cast<double>(below(random, way * way / 4));
       check_as_a_whole(cells_of(set, Axes::none), set.name);
     }
   }
