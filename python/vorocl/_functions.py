@@ -206,12 +206,15 @@ def _transform(
         if values is not None:
             values.view(pixels.dtype)[away <= farthest] = pixels[nearest[away <= farthest]]
         return True
-    if pixels.ndim == 3 and len(pixels) == 1:  # a plane
-        shape = shape[1:]
+    lengths = tuple(sizes or (1.0,) * pixels.ndim)
+    if pixels.ndim == 3 and 1 in (shape[0], shape[2]):  # a plane, which lies in memory as a volume with this axis does
+        flat, axes = (0, slice(1, 3)) if shape[0] == 1 else (2, slice(0, 2))
+        periodic = periodic if flat == 0 else to_periodic(periodic, 3)[1:]
+        shape, lengths = shape[axes], lengths[axes]
         if indices is not None:
-            indices[0] = 0
-            indices = indices[1:]
-    z, y, x = (1.0,) * (3 - pixels.ndim) + tuple(sizes or (1.0,) * pixels.ndim)
+            indices[flat] = 0
+            indices = indices[axes]
+    z, y, x = (1.0,) * (3 - len(shape)) + lengths
     grid = Grid(shape, periodic=periodic)._of("count")
     image, dtype = pixels.view(np.uint8), pixels.dtype.str[1:]
     floats = None if distances is None else distances.view(np.uint8)
