@@ -46,19 +46,19 @@ static inline bool takes(global uint* word, uint id) {
 // Adds to the pair of a and b, a < b, in the table. The pairs of one cell are side by side first, for its borders are
 // found one soon after the other. Where these slots are taken the others are everywhere, and far apart: where few cells
 // have many neighbours, all slots beside those are taken too.
-// Once a pair has found no room, pieces of borders are counted alone, also those of pairs that are in the table: the
-// host will find all of them again in a larger one.
+// Once a pair has found no room, other places are not tried for the next ones, but they are counted: the host will find
+// all of them again in a larger table.
 static inline void add_to_table(uint a, uint b, uint size, PAIR_PARAMETERS) {
   (void)lists;
   const uint hash = hash_of(a, b), step = hash * 0x9e3779b1u | 1u;
-  const uint most_probes = *overflow == 0 ? MOST_PROBES : 0;
-  for (uint probe = 0; probe < most_probes; ++probe) {
+  for (uint probe = 0; probe < MOST_PROBES; ++probe) {
     const uint beside = a * table_size + ((hash + probe) & (table_size - 1));
     global uint* const slot = table + 3 * (size_t)((probe < table_size ? beside : hash + probe * step) & mask);
     if (takes(slot, a) && takes(slot + 1, b)) {
       atomic_add(slot + 2, size);
       return;
     }
+    if (probe == table_size && *overflow != 0) break;
   }
   atomic_inc(overflow);
 }
