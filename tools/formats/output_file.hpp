@@ -34,7 +34,8 @@ class TemporaryName {
   std::size_t slot_;
 };
 
-/// Removes all files and folders that have such a name. Safe in a signal handler.
+/// Removes all files and folders that have such a name, as the last thing before a run ends: a thread that
+/// wants another name waits for ever. Safe in a signal handler.
 void remove_temporary_files() noexcept;
 
 /// A file that will be written, under this name or, where the name is a link, under the one that it leads to.

@@ -7,6 +7,7 @@
 #include <cerrno>
 #include <climits>
 #include <cstring>
+#include <ctime>
 
 #include "formats/output_file.hpp"
 #include "vorocl/error.hpp"
@@ -25,6 +26,7 @@ struct Slot {
 
 constexpr std::size_t slots = 64;  // a run has some ten outputs
 Slot all[slots];
+std::atomic<bool> run_ends{false};
 
 std::size_t take_slot() {
   for (std::size_t i = 0; i < slots; ++i) {
@@ -60,6 +62,7 @@ TemporaryName::TemporaryName(const std::string& path, Kind kind) : path_(path) {
   std::memcpy(all[slot_].name, path.c_str(), path.size() + 1);
   all[slot_].kind = kind;
   all[slot_].holds_name = true;
+  while (run_ends) pause();  // what is made now, nobody would remove
 }
 
 TemporaryName::~TemporaryName() {
@@ -68,6 +71,10 @@ TemporaryName::~TemporaryName() {
 }
 
 void remove_temporary_files() noexcept {
+  run_ends = true;
+  // Another thread may have a name, and be about to make the file.
+  constexpr timespec meanwhile = {0, 2000000};
+  nanosleep(&meanwhile, nullptr);
   for (const Slot& slot : all) {
     if (!slot.holds_name) continue;
     unlink(slot.name);
