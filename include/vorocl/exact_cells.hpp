@@ -165,10 +165,11 @@ class VOROCL_API ExactCellsResult {
 /// them. Of weighted points at one place the one with the greatest weight has the cell.
 ///
 /// Each cell starts as the rectangle and is cut by bisectors, with the seeds that are near in a tree first,
-/// until no seed is nearer to one of its vertices than its own: the security radius of Ray, Sokolov, Lefebvre
-/// and Levy ("Meshless Voronoi on the GPU", 2018), vertex by vertex. Cost: the host sorts the points, in
-/// about 0.1 us each; the device takes 1.5 us per cell and core, in a volume 2.6 us. Memory: 115 bytes per
-/// seed, and 116 more where polygons are asked for; in a volume 380, and 220 more where faces are.
+/// farther ones of a plane by how deep they may cut, until no seed is nearer to one of its vertices than its
+/// own: the security radius of Ray, Sokolov, Lefebvre and Levy ("Meshless Voronoi on the GPU", 2018), vertex
+/// by vertex. Cost: the host sorts the points, in about 0.1 us each; the device takes 1.5 us per cell and
+/// core (14 of 100,000 close together along a curve), in a volume 2.6 us. Memory: 115 bytes per seed, and 116
+/// more where polygons are asked for; in a volume 380, and 220 more where faces are.
 ///
 /// Enqueues and returns, after a wait where only the device has the points. Throws Error if the device has no
 /// doubles (cl_khr_fp64) or too little memory, if the rectangle has no extent along an axis, or if the grid

@@ -54,7 +54,7 @@ static inline void list_nearest(near_t* near, const tree_t* tree, float distance
   near->distance = near->least = 0;
 }
 
-// Around a leaf, for all of its sites. Floats are right to the 10^-7 of its length: distances are a quarter at least.
+// Around a leaf, for all of its sites. Floats are right to 10^-7 of its length: the shortest distance is a fifth of it.
 static inline void find_near(near_t* near, const tree_t* tree, uint leaf) {
   near->base = site_at(tree, leaf * FAN);
   near->lag = most_lag(tree->lags, leaf, tree->count);
@@ -83,8 +83,8 @@ static inline bool is_listed(const near_t* near, uint leaf, int image) {
 
 // Cuts a cell by all sites that are not in the list. In planes the deepest cuts come first, and the walk begins anew
 // behind each leaf that cuts, until one does not. Beside a curve of many sites a cell is long and thin: each of the
-// nearest sites would cut a little off its far end. (A cell without a list is still the whole rectangle: before its
-// near sides all sites of a curve far away would be sides of it.)
+// nearest sites would cut a little off its far end. (A cell without a list is still the whole rectangle, and
+// would be cut by thousands of sites far away before those around it.)
 static inline void cut_by_tree(cell_t* cell, const tree_t* tree, const near_t* near, place_t at, uint site, float end) {
   const first_t first = DIMENSIONS == 2 && near->count > 0 ? DEEPEST : NEAREST;
   for (int image = 0; image < tree->images; ++image) {

@@ -117,10 +117,10 @@ void AdjacencyState::settle() {
     if (slot_count == most_slots) {
       throw Error("the cells of the diagram have more neighbours than can be counted");
     }
-    // At most so many pairs are new as pieces of borders found no room, and at most two of all cells are
-    // pairs.
-    const std::size_t count = of->count(), pieces = words[0], most = most_growth * slot_count;
-    find(*of, slots_for(std::min({slot_count + pieces, std::max(count * count, 2 * slot_count), most})));
+    // Each piece of a border that found no room may be of another pair; no more pairs are possible than cells
+    // squared.
+    const std::size_t count = of->count(), wanted = std::min(slot_count + words[0], count * count);
+    find(*of, slots_for(std::clamp(wanted, 2 * slot_count, most_growth * slot_count)));
   }
 }
 
