@@ -132,12 +132,17 @@ INLINE uint16 load_lanes(global const uint* image, size_t at, int step, int lane
   return vload16(0, value);
 }
 
+// The columns of a strip. Lanes behind the row's end are as its last pixel: the host says how far a mark may be, and a
+// lane that is farther would find no site.
+INLINE int16 columns_from(int x0, const images_t* e) { return min(LANE + x0, (int16)(e->width - 1)); }
+
 // Rows lie on pages of their own, which no processor loads ahead by itself.
 #define ROWS_AHEAD 32
 
 // The least keys of a strip's rows, and what they carry: columns, or labels of a slice. Returns whether all sums held.
 static bool find_along_y(const line_t* l, global const int* site, const images_t* e, global const ushort* columns,
                          global const uint* labels, int x0, int lanes) {
+  const int16 x = columns_from(x0, e);
   begin_keys(l);
   for (int i = 0; i < l->count; ++i) {
     const int y = site[i];
@@ -146,7 +151,7 @@ static bool find_along_y(const line_t* l, global const int* site, const images_t
       PREFETCH(labels + (size_t)min(y + ROWS_AHEAD, e->height - 1) * (size_t)e->width + (size_t)x0);
       l->carried[y] = as_int16(load_lanes(labels, (size_t)y * (size_t)e->width + (size_t)x0, 1, lanes));
     }
-    set_key(l, i, y, part_of(way_of(column - (LANE + x0), e->period_x), e->most_x_of_y, (one_key)e->square_x));
+    set_key(l, i, y, part_of(way_of(column - x, e->period_x), e->most_x_of_y, (one_key)e->square_x));
   }
   return find_along_line(l);
 }
@@ -266,6 +271,7 @@ static void load_along_z(const line_t* l, global const int* site, const images_t
 // The least keys of a line along z, and what they carry. Returns whether all sums held.
 static bool find_along_z(const line_t* l, global const int* site, const images_t* e, int x0, int y) {
   const bool has_places = e->carried == CARRIES_PLACES;
+  const int16 x = columns_from(x0, e);
   begin_keys(l);
   for (int i = 0; i < l->count; ++i) {
     const int z = site[i];
@@ -274,7 +280,7 @@ static bool find_along_z(const line_t* l, global const int* site, const images_t
       continue;
     }
     const int16 p = l->carried[z];
-    const int16 dx = way_of((p & 0xffff) - (LANE + x0), e->period_x), dy = way_of((p >> 16) - y, e->period_y);
+    const int16 dx = way_of((p & 0xffff) - x, e->period_x), dy = way_of((p >> 16) - y, e->period_y);
     set_key(l, i, z,
             part_of(dx, e->most_x_of_z, (one_key)e->square_x) + part_of(dy, e->most_y_of_z, (one_key)e->square_y));
   }

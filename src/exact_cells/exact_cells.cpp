@@ -408,35 +408,36 @@ ExactPolygons ExactCellsResult::read_polygons() const {
           download<cl_double>(device, state_->lengths, count)};
 }
 
-namespace {
-
-/// Calls with each cell and each of its edges: where it begins and ends.
-template <typename Edge>
-void each_edge(const ExactPolygons& polygons, Edge edge) {
-  for (std::uint32_t cell = 0; cell + 1 < polygons.offsets.size(); ++cell) {
-    const std::size_t begin = polygons.offsets[cell], end = polygons.offsets[cell + 1];
-    for (std::size_t i = begin; i < end; ++i) {
-      edge(cell, i, polygons.vertices[i], polygons.vertices[i + 1 < end ? i + 1 : begin]);
-    }
-  }
-}
-
-/// Of the two edges that a cell shares with itself, the one on its right or, if both are level, upper side.
-bool is_first_of_two(const Point& from, const Point& to) {
-  return to.y > from.y || (to.y == from.y && to.x < from.x);
-}
-
-}  // namespace
-
 std::vector<ExactPair> ExactCellsResult::read_pairs() const {
   const ExactPolygons polygons = read_polygons();
   std::vector<ExactPair> pairs;
   pairs.reserve(polygons.vertices.size() / 2);
-  each_edge(polygons, [&](std::uint32_t a, std::size_t i, const Point& from, const Point& to) {
-    const std::uint32_t b = polygons.neighbours[i];
-    if (b == no_label || b < a || (b == a && !is_first_of_two(from, to))) return;
-    pairs.push_back({a, b, polygons.lengths[i], {(from.x + to.x) / 2, (from.y + to.y) / 2}});
-  });
+  std::vector<std::size_t> own;  // edges that a cell shares with itself
+  for (std::uint32_t a = 0; a + 1 < polygons.offsets.size(); ++a) {
+    const std::size_t begin = polygons.offsets[a], end = polygons.offsets[a + 1];
+    const auto ends = [&](std::size_t i) {
+      return std::make_pair(polygons.vertices[i], polygons.vertices[i + 1 < end ? i + 1 : begin]);
+    };
+    const auto add = [&](std::size_t i) {
+      const auto [from, to] = ends(i);
+      pairs.push_back(
+          {a, polygons.neighbours[i], polygons.lengths[i], {(from.x + to.x) / 2, (from.y + to.y) / 2}});
+    };
+    own.clear();
+    for (std::size_t i = begin; i < end; ++i) {
+      const std::uint32_t b = polygons.neighbours[i];
+      if (b == a) own.push_back(i);
+      if (b > a && b != no_label) add(i);
+    }
+    // Half of them are the other half, a period away, and come in the same order: of each two one on the
+    // right or above.
+    const std::size_t half = own.size() / 2;
+    for (std::size_t i = 0; i < half; ++i) {
+      const auto [from, to] = ends(own[i]);
+      const bool is_meant = to.y > from.y || (to.y == from.y && to.x < from.x);
+      add(own[is_meant ? i : i + half]);
+    }
+  }
   std::sort(pairs.begin(), pairs.end(), [](const ExactPair& p, const ExactPair& q) {
     return std::tie(p.a, p.b, p.midpoint.x, p.midpoint.y) < std::tie(q.a, q.b, q.midpoint.x, q.midpoint.y);
   });

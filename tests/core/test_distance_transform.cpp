@@ -420,6 +420,25 @@ BOOST_AUTO_TEST_CASE(values_grow_by_whole_pixels_whatever_their_lengths) {
   }
 }
 
+/// Behind the end of a short row of long pixels no mark is near enough for keys of 32 bits, and what a lane
+/// there finds is read: here where memory holds anything.
+BOOST_AUTO_TEST_CASE(lanes_behind_a_row_find_marks_too) {
+  std::mt19937 random(3);
+  for (int i = 0; i < 400; ++i) {
+    // It is left in memory that is used again.
+    const std::vector<std::uint32_t> anything(10000 + 500 * static_cast<std::size_t>(i % 100), 0xffff1647);
+    std::vector<std::vector<std::uint32_t>>(50, anything);
+    const Grid grid(1 + i % 4, 10, 30);
+    DistanceTransform transform(test_device(), grid, {10, 0.065, 1});
+    std::vector<std::int64_t> image(grid.pixels()), values(grid.pixels());
+    for (auto& pixel : image) pixel = random() % 20 == 0 ? 7 : 0;
+    TransformTargets targets;
+    targets.values = {values.data(), PixelType::uint64};
+    transform.run({image.data(), PixelType::uint64}, targets, {Marked::non_zeros});
+    BOOST_TEST(std::count(values.begin(), values.end(), 7) == static_cast<std::ptrdiff_t>(values.size()));
+  }
+}
+
 namespace {
 
 /// No number is no mark of an image's, but no zero either.

@@ -673,6 +673,28 @@ BOOST_AUTO_TEST_CASE(cells_are_in_the_units_of_the_data_and_absent_seeds_have_no
   }
 }
 
+BOOST_AUTO_TEST_CASE(each_two_edges_of_a_cell_with_itself_are_one_pair) {
+  std::mt19937_64 random(1);
+  std::uniform_real_distribution<double> part;
+  for (int i = 0; i < 400; ++i) {
+    const double width = i % 2 == 0 ? 1 : 0.3, height = 1.3 - width;
+    Grid grid(Axis(10, 0, width).periodic(), Axis(10, 0, height).periodic());
+    if (i % 4 >= 2) grid = grid.tilted(width * (part(random) - 0.5));
+    std::vector<Point> points(1 + random() % 5);
+    for (Point& point : points) point = {width * part(random), height * part(random)};
+    ExactCellsResult result;
+    exact_cells(Seeds(test_device(), grid, points), result);
+    std::vector<double> lengths(points.size());
+    for (const ExactPair& pair : result.read_pairs()) {
+      lengths[pair.a] += pair.length;
+      lengths[pair.b] += pair.length;
+    }
+    const std::vector<ExactCell> cells = result.read();
+    for (std::size_t id = 0; id < cells.size(); ++id)
+      BOOST_TEST(std::abs(lengths[id] - cells[id].perimeter) < 1e-12);
+  }
+}
+
 BOOST_AUTO_TEST_CASE(polygons_begin_in_their_lowest_vertex) {
   const Set sets[] = {{"random", side, side, random_positions(side, side, 500, 39)},
                       {"lattice", side, side, lattice(side / 8, 8, 8)},
