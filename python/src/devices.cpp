@@ -87,7 +87,7 @@ void bind_devices(nb::module_& module) {
            nb::arg("periodic_y"), nb::arg("periodic_z"), nb::arg("spacing"), nb::arg("tilts"),
            nb::arg("bounds").none(), nb::arg("y_up"), nb::arg("closed"));
 
-  nb::class_<Report>(module, "Report")
+  nb::class_<Report>(module, "Report", "What filling a diagram took: see `Diagram.fill`.")
       .def_prop_ro("waves", &Report::waves)
       .def_prop_ro("milliseconds", &Report::milliseconds, without_gil())
       .def_prop_ro("host_milliseconds", &Report::host_milliseconds)

@@ -256,6 +256,28 @@ def test_errors_are_those_of_brute_force(truth):
     assert vorocl.similarity(labels, right) == 100 * np.count_nonzero(labels == right) / 3000
 
 
+def test_a_power_diagram_is_not_judged_by_distances():
+    seeds, diagram = vorocl.Seeds([(10, 16), (24, 16)], (32, 32), weights=[100, 0]), vorocl.Diagram((32, 32))
+    diagram.fill(seeds)
+    labels = diagram.read()
+    simulation = vorocl.Simulation((32, 32))
+    for judged in diagram, simulation.step([(10, 16), (24, 16)], weights=[100, 0]):
+        for truth in None, "true", "snapped":
+            with pytest.raises(vorocl.BadArgument, match="power diagram goes by weights"):
+                judged.errors(truth)
+    diagram.write(labels, vorocl.Seeds([(10, 16), (24, 16)], (32, 32)))
+    assert diagram.errors().wrong_pixels == np.count_nonzero(labels != vorocl.diagram([(10, 16), (24, 16)], (32, 32))) > 0
+
+
+def test_lengths_in_a_spaced_grid_do_not_ask_where_y_points():
+    points = np.array([(1.5, 0.5), (6.5, 2.5)])
+    upwards = points * (1, -1) + (0, 4)
+    for measure in vorocl.distances, lambda *of, **how: vorocl.adjacency(*of, **how)[1], vorocl.areas:
+        expected = measure(points, (4, 8), spacing=(1, 3))
+        found = measure(upwards, (4, 8), spacing=(1, 3), y_up=True)
+        np.testing.assert_allclose(found, expected, atol=1e-3)
+
+
 def test_a_diagram_is_judged_by_what_it_was_made_of():
     points = rng.uniform(0, (60, 50), (400, 2))
     seeds, diagram = vorocl.Seeds(points, (50, 60), snap=False), vorocl.Diagram((50, 60))

@@ -209,6 +209,8 @@ def to_marked(pixels: NDArray[Any]) -> NDArray[np.bool_]:
 def to_labels(labels: ArrayLike, name: str = "labels", shape: Optional[Tuple[int, ...]] = None) -> NDArray[np.uint32]:
     """(H, W) or (D, H, W) labels, C-contiguous, of any integers that uint32 holds."""
     array = to_image(labels, name, shape)
+    if np.ma.is_masked(labels):
+        raise BadArgument(f"{name} must not be masked; fill what is masked, such as with vorocl.NO_LABEL")
     if array.dtype.kind not in "iu":
         raise BadArgument(f"{name} must be integers; this array has the dtype {array.dtype}")
     if array.dtype != np.uint32 and (array.min() < 0 or array.max() > 0xFFFFFFFF):
@@ -218,7 +220,7 @@ def to_labels(labels: ArrayLike, name: str = "labels", shape: Optional[Tuple[int
 
 def to_density(density: ArrayLike, shape: Tuple[int, ...]) -> NDArray[np.float32]:
     """Weights of pixels, C-contiguous; what they must be, the library says."""
-    array = to_image(density, "density", shape)
+    array = to_image(unmasked(density), "density", shape)
     if array.dtype.kind not in "biuf":
         raise BadArgument(f"density must be real numbers; this array has the dtype {array.dtype}")
     with np.errstate(over="ignore"):  # they become infinite

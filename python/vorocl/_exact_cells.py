@@ -175,6 +175,7 @@ class ExactCells(_Cells):
     def polygon(self, row: int) -> NDArray[np.float64]:
         """Return the vertices of one cell of a plane, shape (K, 2): those of an empty cell are none."""
         self._refuse_volume("polygons")
+        row = range(len(self))[row]  # counted from the end, too
         return self.vertices[self.offsets[row] : self.offsets[row + 1]]
 
     def polyhedron(self, row: int) -> Tuple[NDArray[np.float64], List[NDArray[np.int64]]]:
@@ -194,6 +195,7 @@ class ExactCells(_Cells):
         (array([2., 2., 2.]), 6)
         """
         self._require_polyhedra()
+        row = range(len(self))[row]
         first, end = self.vertex_offsets[row], self.vertex_offsets[row + 1]
         begins = self.corner_offsets[self.offsets[row] : int(self.offsets[row + 1]) + 1]
         return self.vertices[first:end], [self.corners[begin:behind] - first for begin, behind in zip(begins, begins[1:])]
@@ -492,4 +494,4 @@ def exact_cells(
     given = to_weights(weights, len(array))
     seeds = _vorocl.Seeds(to_device(device)._device, grid, array, to_outside(outside), True, given)
     found = _vorocl.exact_cells(seeds, with_polyhedra)
-    return ExactCells(array, found, any(to_periodic(periodic, dimensions)))
+    return ExactCells(array.copy(), found, any(to_periodic(periodic, dimensions)))

@@ -225,11 +225,11 @@ def _transform(
 
 def _nearest_in_row(marked: NDArray[np.bool_]) -> Optional[NDArray[np.intp]]:
     """Where in an array of one dimension the nearest marked element is, of two the first; None where there is none."""
-    places, here = np.flatnonzero(marked), np.arange(len(marked))
-    if len(places) == 0:
+    if not marked.any():
         return None
-    behind = np.minimum(np.searchsorted(places, here), len(places) - 1)
-    before, behind = places[np.maximum(behind - 1, 0)], places[behind]
+    count, here = len(marked), np.arange(len(marked))
+    before = np.maximum.accumulate(np.where(marked, here, -2 * count))  # or too far away
+    behind = np.minimum.accumulate(np.where(marked, here, 3 * count)[::-1])[::-1]
     return np.where(here - before <= behind - here, before, behind)
 
 
@@ -253,7 +253,7 @@ def from_mask(
     mask : array_like
         Shape (H, W) or (D, H, W), of numbers or booleans. NaN is no data, and so are the masked pixels of a masked array:
         they are as zeros.
-    <method, metric, periodic>
+    <method, metric_of_pixels, periodic>
     out : ndarray, optional
         Where the labels go: uint32 of the mask's shape, C-contiguous. Without it, a new array.
     <device>
@@ -278,6 +278,10 @@ def from_mask(
     """
     pixels = to_pixels(to_image(unmasked(mask), "mask"), "mask")
     labels = output(out, pixels.shape, np.uint32)
+    if metric == "great-circle":
+        raise BadArgument('metric="great-circle" is of points in degrees; the pixels of a mask have none')
+    if pixels.ndim == 3 and len(pixels) == 1 and np.size(periodic) == 3:  # a plane, whose z repeats nothing
+        periodic = to_periodic(periodic, 3)[:2]
     if to_text(method, "method") == "exact" and to_text(metric, "metric") == "euclidean":
         _transform(pixels, False, device, periodic=periodic, ranks=labels)
         return labels
@@ -316,7 +320,7 @@ def mask_tiles(
         are none): ``labels[y0:y1, x0:x1] = ...`` is done for each tile. Without one of them it is not made.
     tile : int, optional
         The side of tiles in pixels, such as that of the chunks of `labels` or a multiple.
-    <metric, periodic, device>
+    <metric_of_pixels, periodic, device>
 
     Returns
     -------
@@ -347,6 +351,9 @@ def mask_tiles(
         found = getattr(target, "shape", None)
         if target is not None and found != shape:
             raise BadArgument(f"{name} must be an array of the mask's shape, {shape}; this is {shown(found or target)}")
+        held, made = getattr(target, "dtype", None), np.uint32 if name == "labels" else np.float32
+        if held is not None and not np.can_cast(made, held):
+            raise BadArgument(f"{name} are {np.dtype(made)}, which this array cannot hold: its dtype is {held}")
     if labels is None and distances is None:
         raise BadArgument("nothing to make: give labels, distances or both")
     side = to_count(tile, "tile")

@@ -202,6 +202,8 @@ def _to_bounds(bounds: Optional[Bounds], dimensions: int) -> Optional[Bounds]:
         raise BadArgument(f"bounds must have an extent along all axes; these are {shown(bounds)}")
     if dimensions == 2 and -180 <= corners[2] < corners[0] <= 180:
         across = (*corners[:2], corners[2] + 360, corners[3])
-        raise BadArgument(f"bounds must begin before they end; across the date line longitudes go on, as {across}")
+        raise BadArgument(
+            f"bounds must begin before they end; these are {shown(bounds)}. Across the date line longitudes go on, as {across}"
+        )
     checked: Bounds = corners
     return checked

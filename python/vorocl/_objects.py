@@ -20,6 +20,7 @@ from ._arguments import (
     row_of,
     to_labels,
     to_number,
+    to_one_of,
     to_outside,
     to_points,
     to_snap,
@@ -30,7 +31,7 @@ from ._arguments import (
 )
 from ._device import Buffer, Device, OnDevice, is_of_pyopencl, to_device
 from ._errors import BadArgument
-from ._grid import Bounds, Frame, Grid, Shape, Tilt, Unpack, to_grid
+from ._grid import Bounds, Frame, Grid, Shape, Tilt, Unpack, to_globe, to_grid
 from ._parameters import with_parameters
 
 CELL = row_of(
@@ -73,9 +74,11 @@ def _refuse_weights(weights: Optional[ArrayLike]) -> None:
         raise BadArgument("weights are those of arrays of NumPy's: points on the device have none")
 
 
-def to_seeds(seeds: Seeds) -> _vorocl.Seeds:
+def to_seeds(seeds: Seeds, metric: Metric) -> _vorocl.Seeds:
     if not isinstance(seeds, Seeds):
         raise BadArgument(f"seeds must be vorocl.Seeds; these are of type {type(seeds).__name__}")
+    if metric == "great-circle" and seeds.grid.bounds is None:
+        raise BadArgument('metric="great-circle" needs seeds in degrees: give them bounds, such as (-180, -90, 180, 90)')
     return seeds._seeds
 
 
@@ -134,10 +137,12 @@ class Seeds(OnDevice):
         there = _points_there(points, dimensions)
         if there:
             _refuse_weights(weights)
+            self._have_weights = False
             self._seeds = _vorocl.Seeds.from_buffer(self._device._device, self._grid._of(outside), there, *how)
         else:
             array = to_points(points, dimensions)
             given = to_weights(weights, len(array))
+            self._have_weights = given is not None
             self._seeds = _vorocl.Seeds(self._device._device, self._grid._of(outside), array, *how, given)
 
     @property
@@ -286,6 +291,7 @@ class Diagram(OnDevice):
         self._device = to_device(device)
         self._are_in_data = False  # what the points of its seeds are in
         self._on_globe = False  # by great circles
+        self._of_weights = False  # a power diagram
         there = None if labels is None else _handle(labels)
         self._diagram = _vorocl.Diagram(self._device._device, made._of("count"), there)
 
@@ -336,11 +342,18 @@ class Diagram(OnDevice):
         """
         displacement = None if max_displacement is None else to_number(max_displacement, "max_displacement")
         report = self._diagram.fill(
-            to_seeds(seeds), to_text(method, "method"), to_text(metric, "metric"), displacement, None
+            to_seeds(seeds, metric), to_text(method, "method"), to_text(metric, "metric"), displacement, None
         )
-        self._are_in_data, self._units = seeds._are_in_data, seeds.grid._units
-        self._on_globe = metric == "great-circle"
+        self._show(seeds, metric)
         return report
+
+    def _show(self, seeds: Optional[Seeds], metric: Metric) -> None:
+        """Note what its labels are of."""
+        self._on_globe = seeds is not None and metric == "great-circle"
+        self._of_weights = seeds is not None and seeds._have_weights
+        if seeds is not None:
+            self._are_in_data = seeds._are_in_data
+            self._units = seeds.grid._units if seeds.grid.bounds else (1,) * len(self._shape)
 
     def read(self, out: Optional[NDArray[np.uint32]] = None) -> NDArray[np.uint32]:
         """Wait for the diagram and copy its labels.
@@ -375,11 +388,9 @@ class Diagram(OnDevice):
         ------
         BadArgument, DeviceError
         """
-        image, named = to_labels(labels, shape=self._shape), None if seeds is None else to_seeds(seeds)
+        image, named = to_labels(labels, shape=self._shape), None if seeds is None else to_seeds(seeds, metric)
         self._diagram.write(image, named, to_text(metric, "metric"))
-        if seeds is not None:
-            self._are_in_data, self._units = seeds._are_in_data, seeds.grid._units
-        self._on_globe = seeds is not None and metric == "great-circle"
+        self._show(seeds, metric)
 
     @property
     def buffer(self) -> Buffer:
@@ -666,6 +677,11 @@ class Diagram(OnDevice):
                 "errors are counted in pixels, and great circles have none: vorocl.similarity() compares labels with those of "
                 'vorocl.diagram(points, grid, metric="great-circle")'
             )
+        if self._of_weights:
+            raise BadArgument(
+                "errors are of distances, and a power diagram goes by weights too: vorocl.similarity() compares labels with "
+                "those of vorocl.diagram(points, grid, weights=weights)"
+            )
         return DistanceErrors(*self._diagram.errors(None if truth is None else to_truth(truth)))
 
 
@@ -736,8 +752,10 @@ class Simulation(OnDevice):
         device: Optional[Device] = None,
         **frame: Unpack[Frame],
     ) -> None:
-        self._method, self._metric = to_text(method, "method"), to_text(metric, "metric")
+        self._method, self._metric = to_one_of(Method, method, "method"), to_one_of(Metric, metric, "metric")
         made = to_grid(grid, frame)
+        if metric == "great-circle":
+            made = to_globe(made, outside)
         self.diagram = Diagram(made, device=device)
         self.seeds = Seeds(
             (), made, outside=outside, snap=to_snap(snap, self._method), device=self.diagram.device

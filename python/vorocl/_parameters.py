@@ -48,6 +48,9 @@ metric : {"euclidean", "manhattan", "great-circle"}, optional
     How far a pixel's centre is from a point. "great-circle": on the globe, for "exact". Points are (longitude, latitude)
     in degrees, `bounds` are a part of the globe or, without them, (-180, -90, 180, 90), longitudes go round by
     themselves, distances are kilometres on a sphere of 6371.0088 km, and areas square kilometres.""",
+    "metric_of_pixels": """\
+metric : {"euclidean", "manhattan"}, optional
+    How far a pixel's centre is from that of another one.""",
     "bounds": """\
 bounds : sequence of float, optional
     (x0, y0, x1, y1), the rectangle of the points' plane that the grid shows, or of a volume (x0, y0, z0, x1, y1, z1):
@@ -66,12 +69,14 @@ tilt : float or (float, float, float), optional
     "outside": """\
 outside : {"count", "absent", "refuse"}, optional
     What becomes of points outside the grid or the bounds. "count": the grid is a window of a larger plane, and they are
-    seeds too, up to 2**31 pixels away; a method that floods refuses them. "absent": they have no cell. "refuse": they
+    seeds too; a method that floods refuses them, and "exact" one that may own pixels from more than 2**18 pixels away
+    unless it is snapped. "absent": they have no cell. "refuse": they
     are an error. With the last two, a point at x1 or y1 is in the last pixel, as along the other axis of a periodic
     grid. In a volume, and with a `spacing`, "count" refuses too.""",
     "y_up": """\
 y_up : bool, optional
-    Whether y of the points goes up: rows are counted from the bottom then.""",
+    Whether y of the points goes up: rows are counted from the bottom then. A point that lies between two rows belongs to
+    the one above, and "exact" takes it 1/4096 of a pixel inside.""",
     "spacing": """\
 spacing : sequence of int, optional
     As how many units distances count a pixel along x and y, in a volume a voxel along x, y and z: from 1 to 64, such as

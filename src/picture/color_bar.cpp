@@ -20,6 +20,20 @@ constexpr int least_text_height = 8;
 /// The height of the letters of a picture with so many rows.
 int text_height(int rows) { return std::max(least_text_height, rows / 50); }
 
+/// OpenCV's letters are those of ASCII: one mark for each other letter of UTF-8, and u for micro.
+std::string in_ascii(std::string text) {
+  for (const char* const micro : {"\xc2\xb5", "\xce\xbc"}) {
+    for (std::size_t at; (at = text.find(micro)) != std::string::npos;) text.replace(at, 2, "u");
+  }
+  std::string letters;
+  for (const char byte : text) {
+    const int value = static_cast<unsigned char>(byte);
+    if (value < 0x80) letters += byte;
+    if (value >= 0xc0) letters += '?';
+  }
+  return letters;
+}
+
 /// Letters of one size.
 class Lettering {
  public:
@@ -32,11 +46,11 @@ class Lettering {
   int thickness() const { return thickness_; }
 
   int width(const std::string& text) const {
-    return cv::getTextSize(text, font, scale_, thickness_, nullptr).width;
+    return cv::getTextSize(in_ascii(text), font, scale_, thickness_, nullptr).width;
   }
 
   void draw(cv::Mat& picture, const std::string& text, const cv::Point& bottom_left) const {
-    cv::putText(picture, text, bottom_left, font, scale_, dark, thickness_, cv::LINE_AA);
+    cv::putText(picture, in_ascii(text), bottom_left, font, scale_, dark, thickness_, cv::LINE_AA);
   }
 
  private:

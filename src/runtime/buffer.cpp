@@ -25,7 +25,7 @@ cl::Buffer make_buffer(const Device& device, cl_mem_flags flags, std::size_t byt
     throw Error("too little device memory for " + purpose + ": it needs " + readable(bytes) +
                     (held > 0 ? " besides the " + readable(held) + " in use" : "") + ", and " +
                     device.name() + " has " + readable(all) + ", at most " + readable(largest) +
-                    " in one buffer; use a smaller grid or another device",
+                    " in one buffer; use fewer pixels or seeds, or another device",
                 ErrorKind::device_memory);
   }
   cl_int code = CL_SUCCESS;

@@ -1,5 +1,8 @@
 #include "vorocl/error.hpp"
 
+#include <cstdio>
+#include <string>
+
 #include "runtime/opencl_error.hpp"
 
 namespace vorocl {
@@ -61,9 +64,17 @@ void fail(cl_int code, const std::string& what) {
   throw Error(what + " failed: " + error_name(code) + " (" + std::to_string(code) + ")", kind_of(code));
 }
 
+namespace {
+std::string short_text(double number) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.15g", number);
+  return text;
+}
+}  // namespace
+
 BadPoint::BadPoint(std::size_t index, const Point& point, const std::string& what)
-    : Error("point " + std::to_string(index) + " (" + std::to_string(point.x) + ", " +
-                std::to_string(point.y) + (point.z != 0 ? ", " + std::to_string(point.z) : "") + ") " + what,
+    : Error("point " + std::to_string(index) + " (" + short_text(point.x) + ", " + short_text(point.y) +
+                (point.z != 0 ? ", " + short_text(point.z) : "") + ") " + what,
             ErrorKind::bad_point),
       index_(index),
       point_(point) {}

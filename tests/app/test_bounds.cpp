@@ -75,6 +75,37 @@ BOOST_AUTO_TEST_CASE(a_period_is_scaled_to_whole_pixels_where_it_is) {
   BOOST_TEST(map_points({{5, 0.5}}, mapping, Size(20, 1)).view.units.of_length() == std::string("data"));
 }
 
+BOOST_AUTO_TEST_CASE(a_picture_shows_as_much_of_a_period_as_it_has_room_for) {
+  Mapping mapping;
+  mapping.periodic = Axes::x;
+  mapping.domain = Bounds{0, 0, 10, 4};
+  struct Case {
+    double from, to;    // of the bounds
+    int first, pixels;  // of the diagram, in the picture
+  };
+  for (const Case& c : {Case{2, 7, 0, 5},
+                        {2, 12, 0, 10},
+                        {2, 13, 0, 10},
+                        {8, 20, 0, 10},
+                        {10, 22, 0, 10},
+                        {18, 30, 0, 10},
+                        {-2, 12, 2, 10},
+                        {0, 10, 0, 10},
+                        {0, 20, 0, 10},
+                        {-7, 18, 7, 10},
+                        {-8, 3, 0, 10},
+                        {-30, -18, 0, 10}}) {
+    mapping.bounds = {c.from, 0, c.to, 4};
+    const auto width = static_cast<int>(c.to - c.from);
+    const MappedPoints mapped = map_points({{1, 1}, {4, 2}, {7, 3}}, mapping, Size(width, 4));
+    BOOST_TEST_CONTEXT("bounds from " << c.from << " to " << c.to) {
+      BOOST_TEST(mapped.view.x == c.first);
+      BOOST_TEST(mapped.view.size().width() == c.pixels);
+      BOOST_TEST(mapped.outside == (c.pixels == 10 ? 0u : 2u));
+    }
+  }
+}
+
 BOOST_AUTO_TEST_CASE(units_are_those_of_the_data) {
   Mapping mapping;
   mapping.bounds = {0, 0, 4, 2};

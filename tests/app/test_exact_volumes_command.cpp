@@ -290,9 +290,11 @@ BOOST_AUTO_TEST_CASE(weights_and_radii_come_from_a_column) {
     refuses(folder, "cells " + two + weights + "--metric great-circle --cells c.csv", usage,
             {"great-circle", name});
     refuses(folder, "render " + two + weights + "--color column:x -o p.png", usage, {"--color", name});
-    refuses(folder, "cells " + two + weights + "--metric manhattan --cells c.csv", failure,
-            {"weights", "Euclidean"});
-    refuses(folder, "cells " + two + weights + "--snap --cells c.csv", failure, {"weights", "snapped"});
+    refuses(folder, "cells " + two + weights + "--metric manhattan --cells c.csv", usage,
+            {"manhattan", name});
+    refuses(folder, "cells " + two + weights + "--snap --cells c.csv", usage, {"--snap", name});
+    refuses(folder, "simulate " + two + weights + "--frames 3 --step-length 1 --cells c.csv", usage,
+            {"--trajectory", name});
   }
   refuses(folder, "cells --points p.csv --columns x,y --bounds 0,0,4,2 --size 9x9 --weights w --cells c.csv",
           failure, {"p.csv", "squares", "--width"});

@@ -78,7 +78,8 @@ BOOST_AUTO_TEST_CASE(small_files_take_little_memory) {
   refuses_mask("a.bmp", bmp(30000, 30000), {"a.bmp", "cannot hold"});
   refuses_mask("b.bmp", bmp(30000, static_cast<std::uint32_t>(-30000)), {"b.bmp", "cannot hold"});
   refuses_mask("a.jpg",
-               "\xff\xd8\xff\xc0" + std::string("\0\x0b\x08\x75\x30\x75\x30\x01\x01\x11\0", 11) + "pixels",
+               "\xff\xd8\xff\xc0" + std::string("\0\x0b\x08\x75\x30\x75\x30\x01\x01\x11\0", 11) +
+                   std::string("\xff\xda\0\x02pixels\xff\xd9", 12),
                {"a.jpg", "cannot hold 30000 x 30000"});
   for (const std::uint32_t compression : {1u, 5u, 8u}) {
     refuses_mask("a.tif", tiff(30000, 8, compression), {"a.tif", "cannot hold 30000 x 30000"});

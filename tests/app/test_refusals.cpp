@@ -72,6 +72,22 @@ BOOST_AUTO_TEST_CASE(bad_points_are_refused) {
           {"farther.csv", "point 1", "2^31 pixels"});
 }
 
+BOOST_AUTO_TEST_CASE(units_need_an_extent) {
+  const TemporaryFolder folder;
+  folder.file("row.csv", "x,y\n0,5\n4,5\n9,5\n");
+  const std::string row = " --points row.csv --size 20x15 ";
+  for (const char* line : {"cells --cells c.csv", "render --labels l.npy", "tiles --cells c.csv",
+                           "relax --rounds 2 --relaxed-points r.csv"}) {
+    refuses(folder, line + row + "--units data", failure, {"no extent in y", "--units data"});
+  }
+  refuses(folder, "render --labels l.tif --crs EPSG:32632" + row, failure, {"no extent in y", "--crs"});
+  const Result noted = run(folder, "cells --cells c.csv" + row);
+  BOOST_TEST(noted.exit_code == 0);
+  BOOST_TEST(noted.error.find("no extent in y, so all measures stay in pixels") != std::string::npos);
+  succeeds(folder, "cells --cells c.csv --units px" + row);
+  succeeds(folder, "cells --cells c.csv --units data --bounds 0,0,20,15" + row);
+}
+
 BOOST_AUTO_TEST_CASE(bad_options_are_usage_errors) {
   const TemporaryFolder folder;
   folder.file("p.csv", "1,2\n3,4\n");

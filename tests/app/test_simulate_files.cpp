@@ -81,6 +81,26 @@ BOOST_AUTO_TEST_CASE(every_kth_frame_is_written) {
   BOOST_TEST(!std::filesystem::exists(folder / "p/00001.png"));
 }
 
+BOOST_AUTO_TEST_CASE(where_no_frame_is_written_nothing_is_said_to_be) {
+  const TemporaryFolder folder;
+  std::string frames;
+  for (int i = 0; i < 5; ++i) frames += "3\n\nA 0 0 0\nA 3 1 0\nA 1 2 0\n";
+  folder.file("t.xyz", frames);
+  for (const std::string how :
+       {"--width 9 -o f.mp4", "--width 9 -o p%d.png", "--width 9 --cells c.csv", "--width 9 --labels l%d.vti",
+        "--exact --cells c.csv", "--exact --polygons e%d.vtp"}) {
+    const std::string simulate = "simulate --trajectory t.xyz " + how;
+    refuses(folder, simulate + " --frames 3:4 --every 5", usage, {"--every 5", "from 3 to 4", "0, 5, 10"});
+    refuses(folder, simulate + " --frames 3: --every 5", failure, {"--every 5", "from 3 to 4"});
+  }
+  const Result result = run(
+      folder, "simulate --trajectory t.xyz --width 9 --frames 3: --every 5 --cells c.csv --statistics s.csv");
+  BOOST_TEST(result.exit_code == failure);
+  BOOST_TEST((folder.names() == std::set<std::string>{"t.xyz", "s.csv"}));  // rows of all frames
+  succeeds(folder, "simulate --trajectory t.xyz --width 9 --frames 3:4 --every 2 --cells c.csv");
+  BOOST_TEST(content_of(folder / "c.csv").find("\n4,") != std::string::npos);
+}
+
 BOOST_AUTO_TEST_CASE(a_second_run_makes_the_same_bytes) {
   const TemporaryFolder a, b;
   const std::string arguments =

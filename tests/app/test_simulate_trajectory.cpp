@@ -242,7 +242,7 @@ BOOST_AUTO_TEST_CASE(without_a_box_all_frames_give_the_bounds) {
   BOOST_TEST(std::equal(row.begin(), row.end(), labels_of(folder, "far1.npy").begin()));
   succeeds(folder, "simulate --trajectory far.xyz --width 10 --bounds 0,0,5,2 --outside refuse --method jfa");
   folder.file("none.xyz", "0\n\n1\n\nA 1 1 0\n");
-  succeeds(folder, "simulate --trajectory none.xyz --size 9x9 --method djfa --labels none%d.npy");
+  succeeds(folder, "simulate --trajectory none.xyz --size 9x9 --units px --method djfa --labels none%d.npy");
   BOOST_TEST(labels_of(folder, "none0.npy") == std::vector<std::uint32_t>(81, no_label));
   BOOST_TEST(labels_of(folder, "none1.npy") == std::vector<std::uint32_t>(81, 0));
   refuses(folder, "simulate --trajectory none.xyz --width 9 --method djfa", failure, {"none.xyz", "--size"});

@@ -478,7 +478,7 @@ BOOST_AUTO_TEST_CASE(what_volumes_cannot_be_is_refused) {
   const std::vector<Point> outside = {{1, 2, 3}, {1, 2, 8}}, not_a_number = {{1, 2, NAN}};
   for (const Outside count_or_refuse : {Outside::count, Outside::refuse}) {
     check_error([&] { Seeds(device, grid, outside, {count_or_refuse}); },
-                {"8.000000) is outside the grid; x must be in [0, 8), y in [0, 8) and z in [0, 8)"});
+                {"8) is outside the grid; x must be in [0, 8), y in [0, 8) and z in [0, 8)"});
   }
   check_error(
       [&] {
@@ -531,7 +531,7 @@ BOOST_AUTO_TEST_CASE(points_of_planes_lie_in_their_slice) {
         [&] {
           Seeds(device, slab, points, {count_or_refuse, Snap::to_pixels});
         },
-        {"point 2 (4.000000, 4.000000, 4.990000) is outside the grid; x must be in [0, 8), y in [0, 6) "
+        {"point 2 (4, 4, 4.99) is outside the grid; x must be in [0, 8), y in [0, 6) "
          "and z in [5, 7]"});
   }
   const std::vector<float> x = {1.25f, 6}, y = {2, 3};
@@ -541,7 +541,7 @@ BOOST_AUTO_TEST_CASE(points_of_planes_lie_in_their_slice) {
       [&] {
         Seeds(device, Grid(8, 6), {{1, 1, 1}}, to_centres);
       },
-      {"(1.000000, 1.000000, 1.000000) is outside the grid; x must be in [0, 8), y in [0, 6) and z in [0, "
+      {"(1, 1, 1) is outside the grid; x must be in [0, 8), y in [0, 6) and z in [0, "
        "1)"});
   check_error(
       [&] {

@@ -571,6 +571,24 @@ BOOST_AUTO_TEST_CASE(what_is_dropped_of_a_mask_or_spoilt_is_said) {
   BOOST_TEST(spoilt.notes[0].find("--threshold") != std::string::npos);
   BOOST_TEST(clear.notes.empty());
 
+  // A JPEG that ends early, in all ways, and one with other bytes.
+  cv::RNG random(1);
+  cv::Mat noise(64, 64, CV_8U);
+  random.fill(noise, cv::RNG::UNIFORM, 0, 256);
+  for (const int is_progressive : {0, 1}) {
+    std::vector<std::uint8_t> bytes;
+    cv::imencode(".jpg", noise, bytes, {cv::IMWRITE_JPEG_PROGRESSIVE, is_progressive});
+    const std::string whole(bytes.begin(), bytes.end());
+    folder.file("whole.jpg", whole + "and what a camera adds");
+    BOOST_TEST(read_mask(folder / "whole.jpg", 127.0).notes.empty());
+    for (std::size_t end = whole.size() - 1; end > 3; end -= std::min<std::size_t>(end, 97)) {
+      folder.file("cut.jpg", whole.substr(0, end));
+      check_error([&] { read_mask(folder / "cut.jpg", 127.0); }, {"cut.jpg", "ends before its pixels do"});
+    }
+    folder.file("bad.jpg", std::string(whole).replace(whole.size() / 2, 40, 40, '\0'));
+    check_error([&] { read_mask(folder / "bad.jpg", 127.0); }, {"bad.jpg", "is damaged"});
+  }
+
   const auto seven = [](TIFF* of) { TIFFSetField(of, TIFFTAG_SAMPLESPERPIXEL, 7); };
   write_samples<std::uint8_t>(folder / "bands.tif", 1, 1, Pixels(7, 1), seven);
   check_error([&] { read_mask(folder / "bands.tif"); }, {"bands.tif", "7 bands"});

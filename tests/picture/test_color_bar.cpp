@@ -49,6 +49,20 @@ Found find(const cv::Mat& result, int picture_width) {
 
 }  // namespace
 
+BOOST_AUTO_TEST_CASE(letters_that_opencv_does_not_have_are_one_mark_each) {
+  const auto bar = [](const std::string& title) {
+    return with_color_bar(grey_picture(64, 100), {{0, 1}, Palette::turbo, title, false, false});
+  };
+  const auto is_same = [](const cv::Mat& a, const cv::Mat& b) {
+    return a.size() == b.size() && cv::norm(a, b, cv::NORM_INF) == 0;
+  };
+  BOOST_TEST(is_same(bar("gr\xc3\xbcn"), bar("gr?n")));
+  BOOST_TEST(is_same(bar("\xe6\x97\xa5\xf0\x9f\x98\x80"), bar("??")));
+  BOOST_TEST(is_same(bar("t (\xc2\xb5m)"), bar("t (um)")));
+  BOOST_TEST(is_same(bar("\xce\xbcm"), bar("um")));
+  BOOST_TEST(!is_same(bar("um"), bar("??")));
+}
+
 BOOST_AUTO_TEST_CASE(the_picture_keeps_its_place_and_the_width_is_even) {
   for (const cv::Size& size :
        {cv::Size(1, 1), cv::Size(64, 48), cv::Size(333, 95), cv::Size(640, 481), cv::Size(3, 2000)}) {

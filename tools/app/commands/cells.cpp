@@ -44,7 +44,7 @@ struct CellsOptions : DiagramOptions {
 
   std::vector<FileRequest> requests() const {
     if (exact) return {files.cells, files.adjacency, files.polygons};
-    return files.of(is_volume() ? CellsOf::volumes : seeds.on_globe ? CellsOf::globe : CellsOf::planes);
+    return files.of(is_volume() ? CellsOf::volumes : seeds.on_globe() ? CellsOf::globe : CellsOf::planes);
   }
 };
 
@@ -220,7 +220,7 @@ void add_cells(CommandLine& line) {
                   "Cut the cells as polygons or polyhedra, at the seeds' own places and without pixels");
   add_file_option(command, files.polygons).needs(exact);
   command.set_work([command, options] {
-    options->seeds.on_globe = options->method_options.metric == Metric::great_circle;
+    options->seeds.metric = options->method_options.metric;
     std::vector<std::string> paths;
     for (const FileRequest& request : options->requests()) paths.push_back(request.path);
     check_crs(options->seeds, paths);

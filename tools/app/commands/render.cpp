@@ -176,7 +176,7 @@ void add_render(CommandLine& line) {
   command.set_work([command, options] {
     if (!options->draws()) refuse_picture_options(command, "-o or --waves");
     check_method_options(command, {options->method}, options->method_options);
-    options->seeds.on_globe = options->method_options.metric == Metric::great_circle;
+    options->seeds.metric = options->method_options.metric;
     if (options->picture.stamp && options->waves_pattern.empty() && options->seeds.trajectory.empty()) {
       throw UsageError("--stamp needs frames: give --trajectory, or --waves");
     }

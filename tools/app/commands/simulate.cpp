@@ -180,6 +180,9 @@ void run(const SimulateOptions& options) {
 
 /// Points that something floods are snapped. Throws UsageError if they must not be.
 void choose_snap(SimulateOptions& options) {
+  options.seeds.metric = options.method_options.metric;
+  if (!options.seeds.weight_column.empty() && options.seeds.trajectory.empty())
+    throw UsageError("random motion knows no --weights and no --radius: they are of a --trajectory");
   if (!options.seeds.weight_column.empty() && options.compare_with) {
     throw UsageError("--compare-with knows no --weights and no --radius: it judges labels by distances");
   }
@@ -265,6 +268,7 @@ void add_simulate(CommandLine& line) {
                                    "Cut the cells of a trajectory as polygons or polyhedra, without pixels");
   add_file_option(command, options->polygons, true).needs(exact);
   command.set_work([command, options] {
+    check_every(options->motion.frames, options->output.every);
     if (options->exact) return run_exact(command, *options);
     check_film_options(command, options->output);
     const std::vector<FileRequest>& files = options->output.files;

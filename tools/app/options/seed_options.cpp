@@ -224,7 +224,7 @@ void check_crs(const SeedOptions& options, const std::vector<std::string>& paths
   };
   if (crs && std::none_of(paths.begin(), paths.end(), says_it))
     throw UsageError("--crs is for .tif files of labels and distances, and for polygons as .geojson");
-  if (crs && options.on_globe && !crs->is_geographic) {
+  if (crs && options.on_globe() && !crs->is_geographic) {
     throw UsageError(
         fmt::format("--crs EPSG:{} ({}) has no degrees, which --metric great-circle takes; longitudes and "
                     "latitudes have one such as EPSG:4326",

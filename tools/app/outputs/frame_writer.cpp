@@ -130,10 +130,10 @@ class FrameFiles {
   /// The table; null where there are numbered files.
   GrowingFile* table() const { return table_.get(); }
 
-  /// Writes the collection, or gives the table its name.
+  /// Writes the collection, or gives the table its name, if there is something in it.
   void finish() {
-    if (table_) table_->finish();
-    if (collection_) write_pvd(*collection_, listed_);
+    if (table_ && !header_.empty()) table_->finish();
+    if (collection_ && !listed_.empty()) write_pvd(*collection_, listed_);
   }
 
  private:
@@ -237,6 +237,18 @@ std::vector<RequestedFile> requested_files(const FrameWriterOptions& options) {
   const bool is_film = extension_of(options.picture_path) == film_extension;
   files.push_back({"-o", options.picture_path, extensions, !is_film});
   return files;
+}
+
+namespace {
+std::string none_of(const FrameRange& frames, int last, int every) {
+  return fmt::format("--every {0} leaves out all frames from {1} to {2}: it writes 0, {0}, {3} and so on",
+                     every, frames.first, last, 2LL * every);
+}
+}  // namespace
+
+void check_every(const FrameRange& frames, int every) {
+  if (frames.last && *frames.last / every * every < frames.first)
+    throw UsageError(none_of(frames, *frames.last, every));
 }
 
 FrameWriter::FrameWriter(const FrameWriterOptions& options, bool with_errors)
@@ -371,7 +383,10 @@ void FrameWriter::end_run(const Trouble& trouble, const FrameRange& frames) {
     if (trouble.text.empty()) throw;
     late = fmt::format("; {}", error.what());
   }
-  if (trouble.text.empty()) return;
+  if (trouble.text.empty()) {
+    if (frames_ > 0 || (!film_ && !pictures_ && files_.empty())) return;
+    throw Error(none_of(frames, frames.first + complete_ - 1, options_.every));
+  }
   const std::string more =
       film_ || trouble.is_of_frame ? "" : how_to_continue(frames, complete_, !tables_.empty());
   throw Error(trouble.text + progress() + more + late);

@@ -40,6 +40,9 @@ struct FrameSimilarity {
   std::optional<DistanceErrors> errors;
 };
 
+/// Throws UsageError if of all these frames none is written.
+void check_every(const FrameRange& frames, int every);
+
 /// What is written of a frame besides its diagram.
 struct FrameFacts {
   int frame = 0;
@@ -108,7 +111,7 @@ class FrameWriter {
   void finish();
 
   /// finish(), of a run of these frames. If trouble ended it, throws Error that says what did, how far it
-  /// came and what makes the others.
+  /// came and what makes the others; or that no frame was to be written.
   void end_run(const Trouble& trouble, const FrameRange& frames);
 
  private:

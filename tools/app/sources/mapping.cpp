@@ -83,8 +83,8 @@ class PlacedAxis {
 
  private:
   /// A period is rounded to whole pixels, and positions along it are scaled to them about its middle. It may
-  /// begin anywhere: where it covers as many pixels as the picture has and does not hold all of them, or
-  /// holds none of them, it begins with the picture.
+  /// begin anywhere: unless it holds all pixels of the picture, or the picture holds it, it begins with the
+  /// picture, so that this shows as much of it as there is room for.
   void repeat(const ToldAxis& told) {
     const double period = told.last - told.first;
     const double scale = static_cast<double>(pixels_) / (told.high - told.low);
@@ -94,10 +94,9 @@ class PlacedAxis {
           fmt::format("the period in {} is {:g}, less than a pixel: take more pixels", told.name, period));
     }
     const std::int64_t length = std::llround(period * scale);
-    // In whole pixels, which the period is rounded to: the bounds may differ from it by a rounding error.
-    const bool covers = length >= pixels_, holds = told.first <= told.low && told.high <= told.last;
-    const bool apart = told.last <= told.low || told.high <= told.first;
-    const bool moves = (covers && !holds) || apart;
+    const bool holds = told.first <= told.low && told.high <= told.last;
+    const bool is_held = told.low <= told.first && told.last <= told.high && length < pixels_;
+    const bool moves = !holds && !is_held;
     const double low = moves ? told.low : told.first, first = (low - told.low) * scale;
     begin_ = std::llround(first);
     // The middle of the period, less that of these pixels.

@@ -247,6 +247,7 @@ class TrajectorySeeds : public MovingSeeds {
 
   void note_of_scales(const Bounds& bounds, std::size_t outside) {
     const Grid grid = picture_->grid();
+    if (!scales_checked_) note_no_extent(options_, bounds);
     if (fit_ == Fit::frame && !options_.bounds) {
       warn_of_scales(bounds, grid, "--fit all has one scale for all frames");
     } else if (!scales_checked_) {

@@ -116,6 +116,7 @@ PlaneFacts map_points(const SeedOptions& options, const Grid& plane, const Surve
     hash.add(first, places);
   };
   read_in_blocks(options.points, options.csv(), reading.slice, add);
+  note_no_extent(options, bounds);
   warn_of_scales(bounds, plane, "give a --size of the same shape");
   if (plane.periodic() != Axes::none && !options.bounds) {
     print_note(fmt::format("the period is the bounding box of the points{}, {}; --bounds says another one",

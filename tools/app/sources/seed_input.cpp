@@ -58,6 +58,7 @@ Input map_input(const SeedOptions& options, const CsvPoints& read) {
                         : options.domain ? *options.domain
                                          : widened(bounding_box(read.points), options.margin);
   const Mapping mapping = mapping_of(options, bounds);
+  note_no_extent(options, bounds);
   const Size picture = picture_size(options, bounds);
   const Weights weights = weights_of(options, read.values, read.ids,
                                      options.weight_column.empty() ? 1 : pixels_of_square(bounds, picture));
@@ -109,7 +110,7 @@ Input input_from_points(const SeedOptions& options, bool is_volume) {
   CsvPoints read = read_points(options, is_volume);
   try {
     Input input = is_volume || options.is_exact ? data_input(options, read, is_volume)
-                  : options.on_globe            ? globe_input(options, read.points)
+                  : options.on_globe()          ? globe_input(options, read.points)
                                                 : map_input(options, read);
     input.ids = std::move(read.ids);
     input.values = std::move(read.values);
@@ -200,6 +201,14 @@ Weights weights_of(const SeedOptions& options, const ColumnValues& values,
   return weights;
 }
 
+void note_no_extent(const SeedOptions& options, const Bounds& bounds) {
+  if ((bounds.x0 < bounds.x1 && bounds.y0 < bounds.y1) || in_pixels(options)) return;
+  const std::string text = fmt::format("the data have no extent in {}", bounds.x0 < bounds.x1 ? "y" : "x");
+  const char* const told = options.units ? "--units data" : options.crs ? "--crs" : nullptr;
+  if (told != nullptr) throw Error(fmt::format("{}, so {} needs --bounds that have one", text, told));
+  print_note(text + ", so all measures stay in pixels; --bounds can give one");
+}
+
 double pixels_of_square(const Bounds& bounds, const Size& picture) {
   constexpr double rounded = 1.01;  // as the number of pixels of a side is, which are whole
   const double x = (bounds.x1 - bounds.x0) / picture.width(), y = (bounds.y1 - bounds.y0) / picture.height();
@@ -256,7 +265,11 @@ void check_weight_options(const SeedOptions& options) {
   if (options.weight_column.empty()) return;
   if (options.points.empty() && options.trajectory.empty())
     throw UsageError("--weights and --radius need --points or --trajectory");
-  if (options.on_globe) throw UsageError("--metric great-circle knows no --weights and no --radius");
+  const char* const other = options.on_globe()                    ? "--metric great-circle"
+                            : options.metric == Metric::manhattan ? "--metric manhattan"
+                            : options.snap == Snap::to_pixels     ? "--snap"
+                                                                  : nullptr;
+  if (other != nullptr) throw UsageError(std::string(other) + " knows no --weights and no --radius");
   if (!options.value_column.empty() && options.value_column != options.weight_column)
     throw UsageError("--color column:NAME and --weights or --radius take one column, and these are two");
 }
@@ -270,7 +283,7 @@ void check_seed_options(const SeedOptions& options) {
   if (of_volumes != nullptr) {
     throw UsageError(std::string(of_volumes) + " is for volumes: give --size WxHxD");
   }
-  if (options.on_globe) {
+  if (options.on_globe()) {
     const char* const given = options.domain           ? "--domain"
                               : options.periodic       ? "--periodic"
                               : options.outside        ? "--outside"

@@ -46,17 +46,18 @@ struct SeedOptions {
   std::string weight_column;          // ""; none
   bool are_radii = false;             // weights are squares of that column
   bool is_exact = false;              // of cells without pixels, which lie where the data have them
-  bool on_globe = false;              // points are longitudes and latitudes: distances are great circles
+  Metric metric = Metric::euclidean;  // great circles: points are longitudes and latitudes
   std::optional<MeasureUnits> units;  // else those of the data, where there are bounds
   std::string keeps_inside;           // see note_outside()
 
   bool is_volume() const { return size && size->is_volume(); }
+  bool on_globe() const { return metric == Metric::great_circle; }
 
   /// The grid of this size in pixels, which is told.
   Grid grid() const { return {size->width(), size->height(), size->depth(), periodic.value_or(Axes::none)}; }
 
   const std::string& read_column() const { return value_column.empty() ? weight_column : value_column; }
-  CsvOptions csv() const { return {columns, read_column(), decimal_comma, keep, true, on_globe}; }
+  CsvOptions csv() const { return {columns, read_column(), decimal_comma, keep, true, on_globe()}; }
 
   /// What becomes of seeds within their pixels.
   Snap snapping() const {
@@ -100,6 +101,10 @@ Points weighted(const std::vector<Point>& points, const Weights& weights) {
 /// grid's. Throws Error for a value that is none.
 Weights weights_of(const SeedOptions& options, const ColumnValues& values,
                    const std::vector<std::uint32_t>& ids, double squares = 1);
+
+/// Where bounds have no extent along an axis, says that all measures stay in pixels. Throws Error if the
+/// options say something of units.
+void note_no_extent(const SeedOptions& options, const Bounds& bounds);
 
 /// How many pixels there are in a square of the data's unit. Throws Error if they are no squares.
 double pixels_of_square(const Bounds& bounds, const Size& picture);

@@ -71,8 +71,11 @@ ImageHeader read_bmp(const FileBytes& bytes) {
 
 bool is_jpeg(const FileBytes& bytes) { return bytes.starts_with("\xff\xd8\xff"); }
 
-/// The first marker that starts a frame (SOF), behind those of tables and comments.
-ImageHeader read_jpeg(const FileBytes& bytes) {
+/// The first marker that starts a frame (SOF), behind those of tables and comments. Behind the start of a
+/// scan (SOS) the marker of the end must come, for OpenCV shows what there is. (In a scan no 0xff is followed
+/// by that.)
+ImageHeader read_jpeg(const std::string& path, const FileBytes& bytes) {
+  ImageHeader header;
   for (std::size_t place = 2; place + 9 < bytes.size();) {
     const std::uint8_t marker = bytes.at(place + 1);
     if (bytes.at(place) != 0xff) break;
@@ -82,12 +85,16 @@ ImageHeader read_jpeg(const FileBytes& bytes) {
     }
     const bool is_frame =
         marker >= 0xc0 && marker <= 0xcf && marker != 0xc4 && marker != 0xc8 && marker != 0xcc;
-    if (is_frame) {
-      return {bytes.big_endian(place + 7, 2), bytes.big_endian(place + 5, 2), 8, true, true, true};
+    if (is_frame)
+      header = {bytes.big_endian(place + 7, 2), bytes.big_endian(place + 5, 2), 8, true, true, true};
+    if (marker == 0xda) {
+      while (bytes.big_endian(place, 2) != 0xffd9 && place < bytes.size()) ++place;
+      if (place < bytes.size()) return header;
+      break;
     }
     place += 2 + bytes.big_endian(place + 2, 2);
   }
-  return {};
+  throw Error(path + " is damaged: it ends before its pixels do");
 }
 
 bool is_pnm(const FileBytes& bytes) {
@@ -140,7 +147,7 @@ void check_is_image(const std::string& path, const std::vector<std::uint8_t>& fi
 ImageHeader read_image_header(const std::string& path, const std::vector<std::uint8_t>& content) {
   const FileBytes bytes(content);
   if (is_png(bytes)) return read_png(bytes);
-  if (is_jpeg(bytes)) return read_jpeg(bytes);
+  if (is_jpeg(bytes)) return read_jpeg(path, bytes);
   if (is_bmp(bytes)) return read_bmp(bytes);
   return is_pnm(bytes) ? read_pnm(bytes) : read_tiff_header(path);
 }

@@ -1,9 +1,10 @@
 // The module of image files: vorocl_images.so.
-#include <fcntl.h>
+#include <sys/mman.h>
 #include <unistd.h>
 
 #include <new>
 #include <opencv2/imgcodecs.hpp>
+#include <string>
 
 #include "formats/modules.hpp"
 
@@ -11,33 +12,45 @@ namespace vorocl::command {
 
 namespace {
 
-/// Sends standard error nowhere for a scope: OpenCV and the image libraries under it print to it by
+/// Keeps for a scope what goes to standard error: OpenCV and the image libraries under it print to it by
 /// themselves.
-class QuietStandardError {
+class KeptStandardError {
  public:
-  QuietStandardError() : standard_error_(dup(STDERR_FILENO)) {
-    const int nowhere = open("/dev/null", O_WRONLY);
-    if (nowhere >= 0) dup2(nowhere, STDERR_FILENO);
-    if (nowhere >= 0) close(nowhere);
+  KeptStandardError() : standard_error_(dup(STDERR_FILENO)), kept_(memfd_create("stderr", 0)) {
+    if (kept_ >= 0) dup2(kept_, STDERR_FILENO);
   }
-  ~QuietStandardError() {
+  ~KeptStandardError() {
+    if (kept_ >= 0) close(kept_);
     if (standard_error_ < 0) return;
     dup2(standard_error_, STDERR_FILENO);
     close(standard_error_);
   }
-  QuietStandardError(const QuietStandardError&) = delete;
-  QuietStandardError& operator=(const QuietStandardError&) = delete;
+  KeptStandardError(const KeptStandardError&) = delete;
+  KeptStandardError& operator=(const KeptStandardError&) = delete;
+
+  /// The first lines of it.
+  std::string text() const {
+    std::string text(4096, ' ');
+    const ssize_t count = pread(kept_, text.data(), text.size(), 0);
+    text.resize(count > 0 ? static_cast<std::size_t>(count) : 0);
+    return text;
+  }
 
  private:
-  int standard_error_;
+  int standard_error_, kept_;
 };
 
-/// What `work` makes; nothing if OpenCV refuses it, whose texts name its own source lines.
+/// Of a damaged JPEG libjpeg makes up what is missing, and says so.
+bool is_damaged(const std::string& heard) { return heard.find("Corrupt JPEG data") != std::string::npos; }
+
+/// What `work` makes; nothing if OpenCV refuses it, whose texts name its own source lines, or has made it up.
 template <typename Work>
 auto quietly(const Work& work) -> decltype(work()) {
-  const QuietStandardError quiet;
+  const KeptStandardError printed;
   try {
-    return work();
+    auto made = work();
+    if (is_damaged(printed.text())) return {};
+    return made;
   } catch (const cv::Exception& error) {
     if (error.code == cv::Error::StsNoMem) throw std::bad_alloc();
     return {};

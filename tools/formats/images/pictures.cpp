@@ -78,7 +78,7 @@ std::unique_ptr<ImageRows> open_image(const std::string& path) {
   diagram_size(path, header.width, header.height);  // or it is not decoded
   check_pixels(path, header, bytes.size());
   cv::Mat picture = image_module().decode(bytes, header.is_plain);
-  if (picture.empty()) throw Error(path + " is no image that can be read");
+  if (picture.empty()) throw Error(path + " is no image that can be read, or is damaged");
   return std::make_unique<PictureRows>(picture, header);
 }
 
