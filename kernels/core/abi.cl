@@ -12,6 +12,13 @@
 #define PREFETCH(address) prefetch(address, 1)
 #endif
 
+// Whether a condition holds in some lane of a vector. (any() of PoCL 3.1 takes lane after lane; Oclgrind knows no other.)
+#ifdef POCL_DEVICE_ADDRESS_BITS
+#define SOME(condition) (__builtin_reduce_or(condition) < 0)
+#else
+#define SOME(condition) any(condition)
+#endif
+
 // Stores a vector past the caches, if the compiler can: a line of them need not be read before it is written. For whole
 // lines of images of so many pixels that no cache is taken to hold them.
 #ifdef __has_builtin

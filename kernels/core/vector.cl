@@ -38,7 +38,7 @@ typedef JOIN(int, VOROCL_WIDTH) int_v;
 #define AS_UINT_V JOIN(as_uint, VOROCL_WIDTH)
 #define CONVERT_INT_V JOIN(convert_int, VOROCL_WIDTH)
 #define CONVERT_FLOAT_V JOIN(convert_float, VOROCL_WIDTH)
-#define ANY(condition) any(condition)
+#define ANY(condition) SOME(condition)
 #endif
 
 // The index of the lowest bit that is set.

@@ -196,7 +196,7 @@ static inline void compare_eight(const scene_t* scene, const places8_t* p, uint8
   distance += convert_long8(p->lag) * LAG_UNIT;
 #endif
 #endif
-  if (!any(distance <= (long8)(long)best->distance)) return;
+  if (!SOME(distance <= (long8)(long)best->distance)) return;
   long lane[8];
   uint place[8];
   vstore8(distance, 0, lane);

@@ -57,7 +57,7 @@ NOINLINE static void rank_to_the_end(const scene_t* scene, const uint* at, place
 static inline bool differ(const int* values, int count) {
   int8 other = 0;
   for (int k = 0; k < count; k += 8) other |= (vload8(0, values + k) != values[0]) & (EIGHT + k < count);
-  return any(other);
+  return SOME(other);
 }
 
 static inline void rank_places(const scene_t* scene, const uint* at, places_t* places, int count) {

@@ -146,7 +146,7 @@ NOINLINE static void order_stamps(const scene_t* scene, int count, stamps_t* s) 
       lost |= select((uint8)0, way & ((1u << shift) - 1), EIGHT + k < count);
       store_uints(min(way >> shift, (uint8)((1u << (SORT_BITS - 5)) - 1)) << 5, bucket + k);
     }
-    if (!any(lost != 0u)) {
+    if (!SOME(lost != 0u)) {
       int other[STAMP_ROOM];
       for (int i = 0; i < count; ++i) other[i] = IS_VOLUME ? scene->y[s->at[i]] : own_x(scene, s->at[i]);
       const extent_t others = extent_of(other, count);

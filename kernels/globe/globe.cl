@@ -340,7 +340,7 @@ static inline void label_part(const list_t* list, const globe_t* globe, int4 par
         const long8 score = px * (long)v.s0 + py * (long)v.s1 + ((long)row.s1 * (long)v.s2 - half_square(v));
         long8 wins = score > most;
         const long8 is_tie = score == most;
-        if (any(is_tie)) wins |= which_come_first(list, globe, i, best, is_tie);
+        if (SOME(is_tie)) wins |= which_come_first(list, globe, i, best, is_tie);
         most = max(most, score);
         best = select(best, (uint8)i, as_uint8(convert_int8(wins)));
       }

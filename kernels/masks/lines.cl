@@ -47,16 +47,7 @@ typedef struct {
   global int *at, *index;
 } line_t;
 
-#ifdef VOROCL_FAR
-INLINE bool some_from(keys values, one_key limit) {
-  const long16 below = values - limit;  // negative
-  const long8 a = below.lo & below.hi;
-  const long4 b = a.lo & a.hi;
-  return (b.x & b.y & b.z & b.w) >= 0;
-}
-#else
-INLINE bool some_from(keys values, one_key limit) { return some_of(values >= (keys)limit); }
-#endif
+INLINE bool some_from(keys values, one_key limit) { return SOME(values >= (keys)limit); }
 
 INLINE int least_of(int16 v) {
   const int8 a = min(v.lo, v.hi);
@@ -150,7 +141,7 @@ static bool divide(const line_t* l, int first, int last, int low, int high) {
 
 // What the nearest sites of a place carry.
 INLINE int16 carried_by(int16 site, int place, global const int16* carried) {
-  if (!some_of(site != (int16)place)) return carried[place];
+  if (!SOME(site != (int16)place)) return carried[place];
   int from[STRIP], found[STRIP];
   vstore16(site, 0, from);
 #pragma unroll

@@ -59,7 +59,7 @@ INLINE int16 find_seeds(const painter_t* p, uint16 position, uint16* row, uint16
 INLINE void prefetch_seeds(const painter_t* p, uint16 position) {
   uint16 row, x;
   const int16 mine = find_seeds(p, position, &row, &x);
-  if (!some_of(mine)) return;
+  if (!SOME(mine)) return;
   uint pixel[STRIP];
   vstore16(select((uint16)(p->first * p->width), row * p->width + x, mine), 0, pixel);
 #pragma unroll
@@ -71,7 +71,7 @@ INLINE void prefetch_seeds(const painter_t* p, uint16 position) {
 INLINE void paint(const painter_t* p, uint16 position, uint id) {
   uint16 row, x;
   const int16 mine = find_seeds(p, position, &row, &x);
-  if (!some_of(mine)) return;
+  if (!SOME(mine)) return;
   uint pixel[STRIP], word[STRIP], bit[STRIP];
   int is_mine[STRIP];
   vstore16(row * p->width + x, 0, pixel);

@@ -12,14 +12,6 @@ typedef struct __attribute__((packed)) {
 #define LOAD_SHORTS(p) (((global const any_ushort16*)(p))->v)
 #define STORE_SHORTS(values, p) (((global any_ushort16*)(p))->v = (values))
 
-// any() of PoCL 3.1 takes lane after lane: this takes four instructions.
-INLINE bool some_of(int16 lanes) {
-  const int8 a = lanes.lo | lanes.hi;
-  const int4 b = a.lo | a.hi;
-  const long2 c = as_long2(b);
-  return ((c.x | c.y) & (long)0x8000000080000000l) != 0;
-}
-
 // The place of the highest bit of 16 that is set, by the exponent of a float.
 INLINE int16 place_of_highest(int16 word) { return (as_int16(convert_float16(word)) >> 23) - 127; }
 static inline int lowest_of(uint word) { return (int)popcount((word & -word) - 1); }

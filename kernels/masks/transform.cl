@@ -105,7 +105,7 @@ INLINE void set_key(const line_t* l, int i, int place, keys distance) {
 
 // The columns of the nearest marks of a strip's row `y`, in the rows of their sites. They stand in the strip.
 INLINE int16 columns_of(int16 row, int y, global const ushort* columns) {
-  if (!some_of(row != (int16)y)) return convert_int16(LOAD_SHORTS(columns + y * STRIP));
+  if (!SOME(row != (int16)y)) return convert_int16(LOAD_SHORTS(columns + y * STRIP));
   int from[STRIP];
   ushort found[STRIP];
   vstore16(row, 0, from);
@@ -252,12 +252,17 @@ ITEM_KERNEL void nearest_in_slices(global const images_t* images, MEMORY_PARAMET
   }
 }
 
-// Loads what is known of the voxels of a row of strips in the slices that are sites.
+// Loads what is known of the voxels of a row of strips in the slices that are sites, which lie as far apart as rows.
+#define SLICES_AHEAD 4
 static void load_along_z(const line_t* l, global const int* site, const images_t* e, global const uint* between,
                          int step, global const uint* labels, int first, int end, int y) {
   const bool has_places = e->carried == CARRIES_PLACES, has_labels = e->carried == CARRIES_LABELS;
   for (int i = 0; i < l->count; ++i) {
+    const int ahead = site[min(i + SLICES_AHEAD, l->count - 1)];
     for (int s = first; s < end; ++s) {
+      const size_t soon = index_of_pixel(s * STRIP, y, ahead, e);
+      PREFETCH(between + soon * (size_t)step);
+      if (has_labels) PREFETCH(labels + soon);
       const line_t of_strip = line_of_strip(l, s - first, e->longest);
       const int lanes = min(STRIP, e->width - s * STRIP);
       const size_t at = index_of_pixel(s * STRIP, y, site[i], e);

@@ -375,3 +375,19 @@ def test_bad_weights_are_refused(points, weights, message):
     points = points.copy()
     points[0] = np.nan  # of a point that is not there they do not count
     assert vorocl.exact_cells(points, BOUNDS, weights=[np.nan] + [1] * 399).cells["area"].sum() == pytest.approx(8)
+
+
+def test_cells_keep_the_points_and_have_rows_from_the_end():
+    points = np.array([(1.0, 1), (3, 1)])
+    found = vorocl.exact_cells(points, (0, 0, 4, 2))
+    points[:] = 99
+    np.testing.assert_array_equal(found.points, [(1, 1), (3, 1)])
+    np.testing.assert_array_equal(found.polygon(-1), found.polygon(1))
+    assert found.polygon(-1)[:, 0].min() == 2
+    solid = vorocl.exact_cells([(1, 1, 1), (3, 1, 1)], (0, 0, 0, 4, 2, 2), polyhedra=True)
+    np.testing.assert_array_equal(solid.polyhedron(-1)[0], solid.polyhedron(1)[0])
+    for row in 2, -3:
+        with pytest.raises(IndexError):
+            found.polygon(row)
+        with pytest.raises(IndexError):
+            solid.polyhedron(row)

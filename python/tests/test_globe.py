@@ -99,6 +99,18 @@ def test_what_is_not_of_the_globe_is_refused(arguments, says):
         vorocl.diagram([(1, 1)], (9, 9), **METRIC, **arguments)
 
 
+def test_without_bounds_all_show_the_globe_or_refuse():
+    points = np.array([(-120, 30), (100, -20), (7, 80)], float)
+    labels = vorocl.diagram(points, (18, 36), **METRIC)
+    np.testing.assert_array_equal(vorocl.Simulation((18, 36), **METRIC).step(points).read(), labels)
+    with pytest.raises(vorocl.BadArgument, match="seeds in degrees: give them bounds"):
+        vorocl.Diagram((18, 36)).fill(vorocl.Seeds(points, (18, 36)), **METRIC)
+    with pytest.raises(vorocl.BadArgument, match="seeds in degrees: give them bounds"):
+        vorocl.Diagram((18, 36)).write(labels, vorocl.Seeds(points, (18, 36)), **METRIC)
+    with pytest.raises(vorocl.BadArgument, match="pixels of a mask"):
+        vorocl.from_mask(np.eye(5), **METRIC)
+
+
 def test_latitudes_beyond_a_pole_are_named():
     with pytest.raises(vorocl.BadPoint, match="point 1 .*-90 to 90"):
         vorocl.diagram([(1, 1), (2, 91)], (9, 9), **METRIC)

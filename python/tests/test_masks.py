@@ -440,3 +440,34 @@ def test_what_tiles_of_a_mask_cannot_be_is_refused():
 
     with pytest.raises(OSError, match="no space"):
         vorocl.mask_tiles(mask, Full())
+
+
+def test_one_dimension_is_that_of_scipy():
+    for share in 0.001, 0.1, 0.9:
+        image = rng.random(5000) > share
+        image[rng.integers(5000)] = 0
+        distances, indices = vorocl.distance_transform_edt(image, return_indices=True)
+        np.testing.assert_array_equal(distances, ndimage.distance_transform_edt(image))
+        np.testing.assert_array_equal(distances, abs(indices[0] - np.arange(5000)))
+        zeros = np.flatnonzero(image == 0)  # of two as near the first
+        np.testing.assert_array_equal(indices[0], zeros[abs(zeros - np.arange(5000)[:, None]).argmin(axis=1)])
+
+
+def test_tiles_go_to_arrays_that_hold_them():
+    mask = rng.random((40, 50)) < 0.1
+    for dtype in np.uint8, np.int32, np.float32:
+        with pytest.raises(vorocl.BadArgument, match="labels are uint32.*cannot hold"):
+            vorocl.mask_tiles(mask, np.zeros(mask.shape, dtype))
+    with pytest.raises(vorocl.BadArgument, match="distances are float32.*cannot hold"):
+        vorocl.mask_tiles(mask, distances=np.zeros(mask.shape, np.float16))
+    labels = np.zeros(mask.shape, np.int64)
+    vorocl.mask_tiles(mask, labels)
+    np.testing.assert_array_equal(labels, vorocl.from_mask(mask))
+
+
+def test_a_plane_of_one_slice_has_periods_of_planes_and_of_volumes():
+    mask = rng.random((1, 30, 40)) < 0.02
+    for method in "exact", "jfa":
+        expected = vorocl.from_mask(mask[0], method=method, periodic=(True, False))[None]
+        for periodic in (True, False), (True, False, False), (True, False, True):
+            np.testing.assert_array_equal(vorocl.from_mask(mask, method=method, periodic=periodic), expected)

@@ -266,7 +266,8 @@ def test_a_power_diagram_is_not_judged_by_distances():
             with pytest.raises(vorocl.BadArgument, match="power diagram goes by weights"):
                 judged.errors(truth)
     diagram.write(labels, vorocl.Seeds([(10, 16), (24, 16)], (32, 32)))
-    assert diagram.errors().wrong_pixels == np.count_nonzero(labels != vorocl.diagram([(10, 16), (24, 16)], (32, 32))) > 0
+    wrong = np.count_nonzero(labels != vorocl.diagram([(10, 16), (24, 16)], (32, 32)))
+    assert diagram.errors("true").wrong_pixels == wrong > 0
 
 
 def test_lengths_in_a_spaced_grid_do_not_ask_where_y_points():
@@ -327,3 +328,15 @@ def test_measures_know_the_points_outside():
     assert lengths.sum() == (labels[1:] != labels[:-1]).sum() + (labels[:, 1:] != labels[:, :-1]).sum()
     with pytest.raises(vorocl.BadArgument, match="outside"):
         vorocl.relax(points, SHAPE)
+
+
+def test_what_is_masked_does_not_count_or_is_refused():
+    density = np.ma.array(np.ones((4, 8)), mask=False)
+    density.data[:, :6] = 1e9
+    density[:, :6] = np.ma.masked
+    found = vorocl.relax([(1, 1), (6, 2)], (4, 8), density=density)
+    np.testing.assert_array_equal(found.points, vorocl.relax([(1, 1), (6, 2)], (4, 8), density=density.filled(0)).points)
+    labels = np.ma.array(np.zeros((4, 8), np.uint32), mask=np.eye(4, 8))
+    for call in (lambda: vorocl.similarity(labels, labels.data), lambda: vorocl.errors(labels, [(1, 1)])):
+        with pytest.raises(vorocl.BadArgument, match="must not be masked"):
+            call()

@@ -218,8 +218,9 @@ class Seeds(OnDevice):
             return None
         grid = self._grid._showing(bounds, tilt)
         array = to_points(points, dimensions)
-        self._seeds.move_to(array, None if is_same else grid._of(self._outside), to_weights(weights, len(array)))
-        self._grid = grid
+        given = to_weights(weights, len(array))
+        self._seeds.move_to(array, None if is_same else grid._of(self._outside), given)
+        self._grid, self._have_weights = grid, given is not None
         self._are_in_data = self._are_in_data or bounds is not None
         return int(self._seeds.displacement)
 

@@ -39,6 +39,8 @@ class Grid:
     def __init__(self, width: int, height: int, depth: int, periodic_x: bool, periodic_y: bool, periodic_z: bool, spacing: Sequence[int], tilts: Sequence[float], bounds: Sequence[float] | None, y_up: bool, closed: bool) -> None: ...
 
 class Report:
+    """What filling a diagram took: see `Diagram.fill`."""
+
     @property
     def waves(self) -> int: ...
 
