@@ -39,22 +39,18 @@ kernel void add_sums(global const uint* restrict labels, uint count, int4 size, 
                      global const ushort* restrict home, global home_sums_t* restrict home_sums) {
   block_t block;
   if (!take_block(size, bits, &block)) return;
-  FOR_EACH_ROW(y, z, block) {
-    global const uint* const row = row_of(labels, y, z, size);
-    walk_t walk = begin_walk(row, block);
-    while (next_run(&walk)) {
-      const uint label = run_label(&walk);
-      if (label >= count) continue;
-      const uint length = (uint)(walk.to - walk.from);
-      if (home[label] == block.index) {
-        home_sums[label] += sums_of_run(length, (uint)(walk.from - block.left), (uint)(y - block.top),
-                                        (uint)(z - block.front));
-      } else {
-        atomic_add(area + label, length);
-        add_to_pair(sum_x + 2 * label, length * (uint)walk.from + length * (length - 1) / 2);
-        add_to_pair(sum_y + 2 * label, length * (uint)y);
-        if (DEPTH(size) > 1) add_to_pair(sum_z + 2 * label, length * (uint)z);
-      }
+  FOR_EACH_RUN(walk, y, z, block, labels, size) {
+    const uint label = run_label(&walk);
+    if (label >= count) continue;
+    const uint length = (uint)(walk.to - walk.from);
+    if (home[label] == block.index) {
+      home_sums[label] += sums_of_run(length, (uint)(walk.from - block.left), (uint)(y - block.top),
+                                      (uint)(z - block.front));
+    } else {
+      atomic_add(area + label, length);
+      add_to_pair(sum_x + 2 * label, length * (uint)walk.from + length * (length - 1) / 2);
+      add_to_pair(sum_y + 2 * label, length * (uint)y);
+      if (DEPTH(size) > 1) add_to_pair(sum_z + 2 * label, length * (uint)z);
     }
   }
 }
@@ -98,18 +94,14 @@ kernel void add_areas(global const uint* restrict labels, uint count, int4 size,
                       global const ushort* restrict home, global uint* restrict home_area) {
   block_t block;
   if (!take_block(size, bits, &block)) return;
-  FOR_EACH_ROW(y, z, block) {
-    global const uint* const row = row_of(labels, y, z, size);
-    walk_t walk = begin_walk(row, block);
-    while (next_run(&walk)) {
-      const uint label = run_label(&walk);
-      if (label >= count) continue;
-      const uint length = (uint)(walk.to - walk.from);
-      if (home[label] == block.index) {
-        home_area[label] += length;
-      } else {
-        atomic_add(area + label, length);
-      }
+  FOR_EACH_RUN(walk, y, z, block, labels, size) {
+    const uint label = run_label(&walk);
+    if (label >= count) continue;
+    const uint length = (uint)(walk.to - walk.from);
+    if (home[label] == block.index) {
+      home_area[label] += length;
+    } else {
+      atomic_add(area + label, length);
     }
   }
 }
@@ -148,33 +140,29 @@ kernel void add_periods(global const uint* restrict labels, SEED_PARAMETERS, int
   const window_t window = window_of(size, lattice);
   block_t block;
   if (!take_block(size, bits, &block)) return;
-  FOR_EACH_ROW(y, z, block) {
-    global const uint* const row = row_of(labels, y, z, size);
-    walk_t walk = begin_walk(row, block);
-    while (next_run(&walk)) {
-      const uint label = run_label(&walk);
-      if (label >= count) continue;
-      const seed_t seed = seeds[label];
-      global int* const of_cell = away + 3 * (size_t)label;
-      if (is_tilted(window)) {
-        for (int from = walk.from, to; from < walk.to; from = to) {
-          const piece_t piece = piece_from(seed, from, walk.to, y, z, window);
-          to = piece.end;
-          const int3 of_piece = periods_of_way(seed, piece.way, from, y, z, window) * (to - from);
-          if (of_piece.x != 0) atomic_add(of_cell, of_piece.x);
-          if (of_piece.y != 0) atomic_add(of_cell + 1, of_piece.y);
-          if (of_piece.z != 0) atomic_add(of_cell + 2, of_piece.z);
-        }
-        continue;
+  FOR_EACH_RUN(walk, y, z, block, labels, size) {
+    const uint label = run_label(&walk);
+    if (label >= count) continue;
+    const seed_t seed = seeds[label];
+    global int* const of_cell = away + 3 * (size_t)label;
+    if (is_tilted(window)) {
+      for (int from = walk.from, to; from < walk.to; from = to) {
+        const piece_t piece = piece_from(seed, from, walk.to, y, z, window);
+        to = piece.end;
+        const int3 of_piece = periods_of_way(seed, piece.way, from, y, z, window) * (to - from);
+        if (of_piece.x != 0) atomic_add(of_cell, of_piece.x);
+        if (of_piece.y != 0) atomic_add(of_cell + 1, of_piece.y);
+        if (of_piece.z != 0) atomic_add(of_cell + 2, of_piece.z);
       }
-      const int at_x = seed_x(seed, size.x), at_y = seed_y(seed, size.y), length = walk.to - walk.from;
-      const int x = PERIODIC_X ? periods_away(walk.from, walk.to, at_x, centre_behind_x(seed), size.x) : 0;
-      const int of_row_y = PERIODIC_Y ? periods_away(y, y + 1, at_y, centre_behind_y(seed), size.y) : 0;
-      const int of_row_z = PERIODIC_Z ? periods_away(z, z + 1, seed_z(seed), centre_behind_z(seed), DEPTH(size)) : 0;
-      if (x != 0) atomic_add(of_cell, x);
-      if (of_row_y != 0) atomic_add(of_cell + 1, of_row_y * length);
-      if (of_row_z != 0) atomic_add(of_cell + 2, of_row_z * length);
+      continue;
     }
+    const int at_x = seed_x(seed, size.x), at_y = seed_y(seed, size.y), length = walk.to - walk.from;
+    const int x = PERIODIC_X ? periods_away(walk.from, walk.to, at_x, centre_behind_x(seed), size.x) : 0;
+    const int of_row_y = PERIODIC_Y ? periods_away(y, y + 1, at_y, centre_behind_y(seed), size.y) : 0;
+    const int of_row_z = PERIODIC_Z ? periods_away(z, z + 1, seed_z(seed), centre_behind_z(seed), DEPTH(size)) : 0;
+    if (x != 0) atomic_add(of_cell, x);
+    if (of_row_y != 0) atomic_add(of_cell + 1, of_row_y * length);
+    if (of_row_z != 0) atomic_add(of_cell + 2, of_row_z * length);
   }
 }
 

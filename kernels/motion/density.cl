@@ -23,46 +23,42 @@ kernel void add_weights(global const uint* restrict labels, SEED_PARAMETERS, int
   block_t block;
   if (!take_block(size, bits, &block)) return;
   ulong energy_low = 0, energy_high = 0;  // of the low words of the squares, and of the high ones
-  FOR_EACH_ROW(y, z, block) {
-    global const uint* const row = row_of(labels, y, z, size);
-    global const ushort* const of_row = weights + (row - labels);
-    walk_t walk = begin_walk(row, block);
-    while (next_run(&walk)) {
-      const uint label = run_label(&walk);
-      if (label >= count || !is_there(seeds[label])) continue;
-      const seed_t seed = seeds[label];
-      const int home_x = seed_x(seed, size.x), home_y = seed_y(seed, size.y);
-      const int dy = way_y(seed, y, window), dz = way_z(seed, z, window);
-      const long across = (long)dy * dy * (SPACING_Y * SPACING_Y) + (long)dz * dz * (SPACING_Z * SPACING_Z);
-      ulong weight = 0, moment_x = 0;
-      for (int from = walk.from, to; from < walk.to; from = to) {
-        const int way = way_x(seed, from, window);
-        to = piece_end(from, walk.to, way, window.period_x);
-        long dx = way, column = place_x(seed, way, size.x) - home_x;
-        for (int x = from; x < to; ++x, ++column, dx += UNIT) {
-          const ulong of_pixel = of_row[x], square = (ulong)(dx * dx * (SPACING_X * SPACING_X) + across);
-          weight += of_pixel;
-          moment_x += of_pixel * (ulong)column;
-          energy_low += of_pixel * (square & 0xffffffffu);
-          energy_high += of_pixel * (square >> 32);
-        }
+  FOR_EACH_RUN(walk, y, z, block, labels, size) {
+    global const ushort* const of_row = weights + (walk.row - labels);
+    const uint label = run_label(&walk);
+    if (label >= count || !is_there(seeds[label])) continue;
+    const seed_t seed = seeds[label];
+    const int home_x = seed_x(seed, size.x), home_y = seed_y(seed, size.y);
+    const int dy = way_y(seed, y, window), dz = way_z(seed, z, window);
+    const long across = (long)dy * dy * (SPACING_Y * SPACING_Y) + (long)dz * dz * (SPACING_Z * SPACING_Z);
+    ulong weight = 0, moment_x = 0;
+    for (int from = walk.from, to; from < walk.to; from = to) {
+      const int way = way_x(seed, from, window);
+      to = piece_end(from, walk.to, way, window.period_x);
+      long dx = way, column = place_x(seed, way, size.x) - home_x;
+      for (int x = from; x < to; ++x, ++column, dx += UNIT) {
+        const ulong of_pixel = of_row[x], square = (ulong)(dx * dx * (SPACING_X * SPACING_X) + across);
+        weight += of_pixel;
+        moment_x += of_pixel * (ulong)column;
+        energy_low += of_pixel * (square & 0xffffffffu);
+        energy_high += of_pixel * (square >> 32);
       }
-      if (weight == 0) continue;
-      const ulong moment_y = weight * (ulong)(long)(place_y(seed, dy, size.y) - home_y);
-      const ulong moment_z = weight * (ulong)(long)(place_z(seed, dz) - seed_z(seed));
-      if (block_of(home_x, home_y, seed_z(seed), size, bits) == block.index) {
-        global ulong* const sums = at_home + 4 * (size_t)label;
-        sums[0] += weight;
-        sums[1] += moment_x;
-        sums[2] += moment_y;
-        if (DEPTH(size) > 1) sums[3] += moment_z;
-      } else {
-        global uint* const sums = elsewhere + 8 * (size_t)label;
-        add_long_to_pair(sums, weight);
-        add_long_to_pair(sums + 2, moment_x);
-        add_long_to_pair(sums + 4, moment_y);
-        if (DEPTH(size) > 1) add_long_to_pair(sums + 6, moment_z);
-      }
+    }
+    if (weight == 0) continue;
+    const ulong moment_y = weight * (ulong)(long)(place_y(seed, dy, size.y) - home_y);
+    const ulong moment_z = weight * (ulong)(long)(place_z(seed, dz) - seed_z(seed));
+    if (block_of(home_x, home_y, seed_z(seed), size, bits) == block.index) {
+      global ulong* const sums = at_home + 4 * (size_t)label;
+      sums[0] += weight;
+      sums[1] += moment_x;
+      sums[2] += moment_y;
+      if (DEPTH(size) > 1) sums[3] += moment_z;
+    } else {
+      global uint* const sums = elsewhere + 8 * (size_t)label;
+      add_long_to_pair(sums, weight);
+      add_long_to_pair(sums + 2, moment_x);
+      add_long_to_pair(sums + 4, moment_y);
+      if (DEPTH(size) > 1) add_long_to_pair(sums + 6, moment_z);
     }
   }
   energies[block.index] = (energy_high << (32 - 2 * UNIT_BITS)) + (energy_low >> (2 * UNIT_BITS));

@@ -10,22 +10,18 @@ kernel void add_energy(global const uint* restrict labels, SEED_PARAMETERS, int4
   block_t block;
   if (!take_block(size, bits, &block)) return;
   ulong energy = 0, rest = 0;
-  FOR_EACH_ROW(y, z, block) {
-    global const uint* const row = row_of(labels, y, z, size);
-    walk_t walk = begin_walk(row, block);
-    while (next_run(&walk)) {
-      const uint label = run_label(&walk);
-      if (label >= count || !is_there(seeds[label])) continue;
-      const long dy = SPACING_Y * way_y(seeds[label], y, window), dz = SPACING_Z * way_z(seeds[label], z, window);
-      for (int from = walk.from, to; from < walk.to; from = to) {
-        const int way = way_x(seeds[label], from, window);
-        to = piece_end(from, walk.to, way, window.period_x);
-        const long n = to - from, x = way;
-        const long along_x = n * x * x + x * UNIT * n * (n - 1) + (long)UNIT * UNIT * ((n - 1) * n * (2 * n - 1) / 6);
-        const ulong squares = (ulong)(n * (dy * dy + dz * dz) + SPACING_X * SPACING_X * along_x);
-        energy += squares >> UNIT_BITS;
-        rest += squares & (UNIT - 1);
-      }
+  FOR_EACH_RUN(walk, y, z, block, labels, size) {
+    const uint label = run_label(&walk);
+    if (label >= count || !is_there(seeds[label])) continue;
+    const long dy = SPACING_Y * way_y(seeds[label], y, window), dz = SPACING_Z * way_z(seeds[label], z, window);
+    for (int from = walk.from, to; from < walk.to; from = to) {
+      const int way = way_x(seeds[label], from, window);
+      to = piece_end(from, walk.to, way, window.period_x);
+      const long n = to - from, x = way;
+      const long along_x = n * x * x + x * UNIT * n * (n - 1) + (long)UNIT * UNIT * ((n - 1) * n * (2 * n - 1) / 6);
+      const ulong squares = (ulong)(n * (dy * dy + dz * dz) + SPACING_X * SPACING_X * along_x);
+      energy += squares >> UNIT_BITS;
+      rest += squares & (UNIT - 1);
     }
   }
   energies[block.index] = energy + (rest >> UNIT_BITS);
