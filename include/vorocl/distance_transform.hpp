@@ -37,7 +37,8 @@ class VOROCL_API ImageSource {
   PixelType type_;
 };
 
-/// Where an image is written, likewise; none if made without arguments.
+/// Where an image is written, likewise, in a buffer that kernels can read and write; none if made without
+/// arguments.
 class VOROCL_API ImageTarget {
  public:
   ImageTarget() = default;
@@ -129,7 +130,8 @@ class VOROCL_API DistanceTransform {
   /// For images of a grid's size and periods (other axes than the grid's are as Grid(width, height, depth)
   /// makes them; a pixel of an axis that is spaced() is so many sizes long). Throws Error, if the grid is
   /// larger than a diagram can be (Window::max_side; of a volume Window::max_side_of_volume pixels and 2^31 -
-  /// 1 voxels), is tilted, or a size is not positive and finite or more than 1,000 times another one.
+  /// 1 voxels), is tilted, or a size is not from 1e-140 to 1e140 or more than 1,000 times another one. Of a
+  /// plane z is not looked at.
   explicit DistanceTransform(const Device& device, const Grid& grid, const PixelSize& size = {});
 
   /// Transforms an image. Where all images are buffers it enqueues and returns. Else it waits: on a device

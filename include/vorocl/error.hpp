@@ -23,8 +23,8 @@ enum class ErrorKind {
 
 /// What went wrong and what to do about it, in one line (a kernel's build log adds lines of its own).
 ///
-/// An object that a call failed on stays usable: a diagram counts as never filled, a result is empty, seeds
-/// have the points that they had.
+/// An object that a call failed on stays usable: a diagram that was to be filled counts as never filled, a
+/// result is empty, seeds have the points that they had.
 class VOROCL_API Error : public std::runtime_error {
  public:
   explicit Error(const std::string& message, ErrorKind kind = ErrorKind::bad_argument)

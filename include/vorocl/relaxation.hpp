@@ -16,8 +16,8 @@ namespace vorocl {
 /// What relax() did.
 struct Relaxation {
   /// Of the diagram at the start and after each round: the sum of the squared distances of all pixels to
-  /// their seeds, in square pixels, in a spaced grid in squares of its unit. Whole numbers where seeds are
-  /// whole pixels, and exact up to 2^53. With a density the sum of density times squared distance.
+  /// their seeds, in square pixels, in a spaced grid in squares of its unit: see energy(). With a density the
+  /// sum of density times squared distance.
   std::vector<double> energies;
   std::vector<std::size_t> moved;  ///< the seeds that each round moved: one entry less than the energies
   bool converged = false;          ///< no seed would move by the tolerance or more
@@ -52,9 +52,10 @@ using RelaxationObserver =
     std::function<bool(const Seeds& seeds, const Diagram& diagram, const Relaxation& so_far)>;
 
 /// The sum of the squared Euclidean distances of all pixels with a label to their seeds, in square pixels: a
-/// whole number where seeds are whole pixels, exact up to 2^53. Waits. Throws Error if the diagram knows no
-/// seeds, or some lie outside its window or across the ends of its periods, and BadPoint if they had a bad
-/// point.
+/// whole number where seeds are whole pixels, exact up to 2^53. Of other seeds the sum of each block of
+/// pixels is cut down to 1/4096, so that it is less than 1/4096 per block too small. Waits. Throws Error if
+/// the diagram knows no seeds, or some lie outside its window or across the ends of its periods, and BadPoint
+/// if they had a bad point.
 VOROCL_API double energy(const Diagram& diagram);
 
 /// Lloyd's algorithm on pixels (Lloyd 1982; Du, Faber & Gunzburger 1999, "Centroidal Voronoi tessellations").

@@ -45,7 +45,7 @@ extern "C" {
 typedef enum vorocl_status {
   VOROCL_SUCCESS = 0,
   VOROCL_BAD_ARGUMENT = 1,   ///< an argument is out of its range, or two do not fit together
-  VOROCL_NULL_ARGUMENT = 2,  ///< a pointer that must not be NULL is
+  VOROCL_NULL_ARGUMENT = 2,  ///< a pointer that must not be NULL is; nothing has been done
   VOROCL_OUT_OF_HOST_MEMORY = 3,
   VOROCL_BAD_POINT = 4,  ///< a seed's point is NaN, infinite or too far away: see vorocl_bad_point()
   VOROCL_OUT_OF_DEVICE_MEMORY = 5,

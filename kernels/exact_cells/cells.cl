@@ -46,7 +46,7 @@ kernel void measure_edges(SITE_PARAMETERS, uint cells, global const uint* restri
   double2 from = first;
   for (uint i = offset; i < end; ++i) {
     const double2 to = i + 1 < end ? vertices[i + 1] : first, way = to - from;
-    lengths[i] = sqrt(way.s0 * way.s0 + way.s1 * way.s1) / 2 * step;
+    lengths[i] = fmax(sqrt(way.s0 * way.s0 + way.s1 * way.s1) / 2 * step, DBL_MIN);  // none is 0
     vertices[i] = origin.xy + (at + from / 2) * step;
     from = to;
   }

@@ -55,8 +55,10 @@ void write(vorocl_diagram& diagram, const Labels& labels, const vorocl_seeds* se
 vorocl_status vorocl_diagram_write(vorocl_diagram* diagram, const uint32_t* labels, size_t count,
                                    const vorocl_seeds* seeds, vorocl_metric metric) {
   return guarded([&] {
-    check_count(of(diagram).window().pixels(), "pixels", count);
+    const std::size_t pixels = of(diagram).window().pixels();
     const uint32_t* const first = &given(labels, "labels");
+    diagram->report = {};
+    check_count(pixels, "pixels", count);
     write(*diagram, std::vector<uint32_t>(first, first + count), seeds, metric);
   });
 }

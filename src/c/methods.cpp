@@ -57,12 +57,11 @@ vorocl_status vorocl_method_get(size_t index, vorocl_method_description* descrip
 vorocl_status vorocl_run(const char* name, const vorocl_seeds* seeds, vorocl_diagram* diagram,
                          const vorocl_method_options* options) {
   return guarded([&] {
-    const Method& wanted = method(&given(name, "method"));
-    const MethodOptions its_options = to_options(options);
+    const char* const wanted = &given(name, "method");
     const Seeds& from = of(seeds);
     vorocl_diagram& to = given(diagram, "diagram");
     to.report = {};
-    to.report = wanted.run(from, to.diagram, its_options);
+    to.report = method(wanted).run(from, to.diagram, to_options(options));
   });
 }
 

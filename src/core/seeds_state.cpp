@@ -358,6 +358,7 @@ std::shared_ptr<cl::Buffer> Rooms::take(const Device& device, std::size_t bytes)
 }
 
 std::shared_ptr<cl::Buffer> SeedsState::room_for_positions(std::size_t count) {
+  check_count(count);
   return rooms_of_positions_.take(device, (count + 1) * word);
 }
 

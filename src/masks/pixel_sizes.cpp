@@ -15,6 +15,7 @@ namespace {
 using Lengths = std::array<double, 3>;
 
 constexpr double most_apart = 1000;
+constexpr double shortest = 1e-140, longest = 1e140;  // the squares of distances are doubles
 
 /// Keys have 62 bits for squared distances and the number of a site: so long sides have shorter numbers.
 constexpr std::int64_t most_of_long_sides = 8192;
@@ -23,8 +24,9 @@ int bits_of_squares(std::int64_t longest_side) { return longest_side <= most_of_
 void check_lengths(const Lengths& lengths) {
   std::ostringstream text;
   for (const double length : lengths) {
-    if (std::isfinite(length) && length > 0) continue;
-    text << "a pixel cannot have the length " << length << "; it must be positive and finite";
+    if (length >= shortest && length <= longest) continue;
+    text << "a pixel cannot have the length " << length << "; it must be positive and finite, from "
+         << shortest << " to " << longest;
     throw Error(text.str());
   }
   const auto [least, most] = std::minmax_element(lengths.begin(), lengths.end());

@@ -231,6 +231,17 @@ static void test_dynamic_jump_flooding(const vorocl_device* device) {
   OK(vorocl_diagram_report(diagram, &waves, &milliseconds, &host_milliseconds));
   CHECK(waves == 0 && milliseconds == 0 && host_milliseconds == 0);
   options.von_neumann_waves = 2;
+  OK(vorocl_run("djfa", seeds, diagram, &options));
+  CHECK(vorocl_run("djfa", NULL, diagram, &options) == VOROCL_NULL_ARGUMENT); /* has done nothing */
+  OK(vorocl_diagram_event(diagram, &event));
+  CHECK(event != NULL);
+  CHECK(vorocl_run("nope", seeds, diagram, &options) == VOROCL_BAD_ARGUMENT);
+  OK(vorocl_diagram_event(diagram, &event));
+  CHECK(event == NULL);
+  OK(vorocl_run("djfa", seeds, diagram, &options));
+  CHECK(vorocl_diagram_write(diagram, nearest, pixels - 1, NULL, 0) == VOROCL_BAD_ARGUMENT);
+  OK(vorocl_diagram_event(diagram, &event));
+  CHECK(event == NULL);
 
   options.extra_waves = 0;
   options.refresh_interval = 1;

@@ -563,6 +563,8 @@ BOOST_AUTO_TEST_CASE(bad_arguments_are_named) {
       },
       {"whole numbers"});
   check_error([&] { DistanceTransform(device, Grid(4, 3), {0, 1, 1}); }, {"length 0", "positive"});
+  for (const double size : {1e-310, 1e-200, 1e155, 1e308})
+    check_error([&] { DistanceTransform(device, Grid(4, 3), {size, size, size}); }, {"1e-140 to 1e+140"});
   check_error([&] { DistanceTransform(device, Grid(4, 3), {1, 2000, 1}); }, {"1000 times"});
   check_error([&] { DistanceTransform(device, Grid(40000, 1)); }, {"40000 x 1", "32768"});
   check_error([&] { DistanceTransform(device, Grid(2, 2, 20000)); }, {"16384"});

@@ -934,6 +934,25 @@ BOOST_AUTO_TEST_CASE(what_cannot_be_is_refused) {
   BOOST_TEST(result.read_polyhedra().offsets.size() == 1u);
 }
 
+BOOST_AUTO_TEST_CASE(no_face_is_lost_to_rounding) {
+  // A lattice of half steps, whose cells touch along edges: rounded sites make faces of next to nothing
+  // there.
+  for (const bool is_periodic : {true, false}) {
+    const Axis axis = is_periodic ? Axis(8, 0, 1).periodic() : Axis(8, 0, 1);
+    std::vector<Point> points;
+    for (int i = 0; i < 10; ++i)
+      points.push_back({(i % 3 + 0.5) / 3, (i / 3 % 3 + 0.5) / 3, (i / 9 + 0.5) / 3});
+    ExactCellsResult result;
+    exact_cells(Seeds(test_device(), Grid(axis, axis, axis), points), result);
+    std::size_t tiny = 0;
+    for (const double area : result.read_polyhedra().areas) {
+      BOOST_TEST(area > 0);
+      tiny += area < 1e-12 ? 1 : 0;
+    }
+    BOOST_TEST(tiny > 0u);
+  }
+}
+
 BOOST_AUTO_TEST_CASE(the_curve_that_sorts_points_in_space_does_not_jump) {
   constexpr std::uint32_t length = 16;
   constexpr int unused = hilbert_bits - 4;

@@ -281,6 +281,11 @@ BOOST_AUTO_TEST_CASE(random_seeds_are_philox_numbers) {
   }
   check_error([&] { Seeds::random(test_device(), Grid(32769, 1), 1, 1); },
               {"no larger than a diagram", "32769"});
+  for (const std::size_t count : {(std::size_t{1} << 30) + 1, std::size_t{1} << 62,
+                                  (std::size_t{1} << 62) + 8, std::size_t{1} << 63, ~std::size_t{0}}) {
+    check_error([&] { Seeds::random(test_device(), Grid(8, 6), count, 1); }, {"too many", "2^30"});
+    test_device().finish();  // nothing was enqueued
+  }
 }
 
 BOOST_AUTO_TEST_CASE(random_seeds_are_uniform) {

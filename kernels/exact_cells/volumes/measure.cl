@@ -108,7 +108,8 @@ static inline void measure_cell(cell_t* cell, const tree_t* tree, uint site, MEA
     if (cell->corners[p] < 3) continue;
     const double3 n = cell->planes[p].xyz;
     const double part = cell->scales[p] * cell->sums[p];
-    const double area = cell->sums[p] / sqrt(n.x * n.x + n.y * n.y + n.z * n.z) / 8 * step * step;
+    const double exactly = cell->sums[p] / sqrt(n.x * n.x + n.y * n.y + n.z * n.z) / 8 * step * step;
+    const double area = fmax(exactly, DBL_MIN);  // a tiny one may be lost to rounding
     volume += part;
     moment += part * cell->scales[p] * n;
     surface += area;
