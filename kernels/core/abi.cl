@@ -12,7 +12,7 @@
 #define PREFETCH(address) prefetch(address, 1)
 #endif
 
-// Whether a condition holds in some lane of a vector. (any() of PoCL 3.1 takes lane after lane; Oclgrind knows no other.)
+// Whether a condition holds in some lane of a vector. (any() of PoCL 3.1 goes lane by lane. Oclgrind knows no other.)
 #ifdef POCL_DEVICE_ADDRESS_BITS
 #define SOME(condition) (__builtin_reduce_or(condition) < 0)
 #else
