@@ -4,7 +4,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
-#include <memory>
 #include <optional>
 #include <vector>
 
@@ -83,9 +82,6 @@ class VOROCL_API PlaneSeeds : public SeedSource {
   /// What becomes of points outside the grid, and within their pixels, is as for Seeds.
   explicit PlaneSeeds(const Grid& grid, const SeedsOptions& options = {});
   PlaneSeeds(const Grid& grid, const Points& points, const SeedsOptions& options = {});
-  ~PlaneSeeds() override;
-  PlaneSeeds(PlaneSeeds&& other) noexcept;
-  PlaneSeeds& operator=(PlaneSeeds&& other) noexcept;
 
   /// Makes room for so many seeds in all, so that add() need not copy those that are there.
   void reserve(std::size_t count);
@@ -120,7 +116,7 @@ class VOROCL_API PlaneSeeds : public SeedSource {
 
  private:
   PlaneSeedsState& state() const;
-  std::unique_ptr<PlaneSeedsState> state_;
+  OwnState<PlaneSeedsState> state_;
 };
 
 struct PlaneMaskState;
@@ -133,9 +129,6 @@ class VOROCL_API PlaneMask : public SeedSource {
  public:
   /// Without rows. Throws Error for a volume or a tilted grid.
   explicit PlaneMask(const Grid& grid);
-  ~PlaneMask() override;
-  PlaneMask(PlaneMask&& other) noexcept;
-  PlaneMask& operator=(PlaneMask&& other) noexcept;
 
   /// Appends rows, a byte for each pixel. Throws Error if the grid has fewer, or there are 2^32 - 1 seeds or
   /// more, which ids cannot number; what was added before is kept.
@@ -154,7 +147,7 @@ class VOROCL_API PlaneMask : public SeedSource {
 
  private:
   PlaneMaskState& state() const;
-  std::unique_ptr<PlaneMaskState> state_;
+  OwnState<PlaneMaskState> state_;
 };
 
 /// A tile with its labels, which are ids of seeds or no_label, row-major.

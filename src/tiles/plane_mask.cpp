@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/box_tree.hpp"
+#include "runtime/internal.hpp"
 #include "runtime/pixel_grid.hpp"
 #include "tiles/near_seeds.hpp"
 #include "vorocl/error.hpp"
@@ -219,11 +220,8 @@ struct PlaneMaskState {
 PlaneMask::PlaneMask(const Grid& grid) {
   refuse_volume(grid, "a mask of tiles");
   refuse_tilted(grid, "a mask of tiles");
-  state_ = std::make_unique<PlaneMaskState>(grid);
+  state_ = make_state<PlaneMaskState>(grid);
 }
-PlaneMask::~PlaneMask() = default;
-PlaneMask::PlaneMask(PlaneMask&& other) noexcept = default;
-PlaneMask& PlaneMask::operator=(PlaneMask&& other) noexcept = default;
 
 PlaneMaskState& PlaneMask::state() const {
   if (!state_) throw Error("this mask was moved from, and has no rows; use the one it was moved to");

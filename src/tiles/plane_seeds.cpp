@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "core/snapping.hpp"
+#include "runtime/internal.hpp"
 #include "runtime/pixel_grid.hpp"
 #include "tiles/near_seeds.hpp"
 #include "tiles/seed_tree.hpp"
@@ -65,7 +66,7 @@ struct PlaneSeedsState {
 SeedSource::~SeedSource() = default;
 
 PlaneSeeds::PlaneSeeds(const Grid& grid, const SeedsOptions& options)
-    : state_(std::make_unique<PlaneSeedsState>(grid, options)) {
+    : state_(make_state<PlaneSeedsState>(grid, options)) {
   refuse_volume(grid, "a plane of tiles");
   refuse_tilted(grid, "a plane of tiles");
 }
@@ -74,9 +75,6 @@ PlaneSeeds::PlaneSeeds(const Grid& grid, const Points& points, const SeedsOption
   reserve(points.size());
   add(points);
 }
-PlaneSeeds::~PlaneSeeds() = default;
-PlaneSeeds::PlaneSeeds(PlaneSeeds&& other) noexcept = default;
-PlaneSeeds& PlaneSeeds::operator=(PlaneSeeds&& other) noexcept = default;
 
 PlaneSeedsState& PlaneSeeds::state() const {
   if (!state_)
