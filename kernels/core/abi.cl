@@ -13,9 +13,12 @@
 #endif
 
 // Whether a condition holds in some lane of a vector. (any() of PoCL 3.1 goes lane by lane. Oclgrind knows no other.)
-#ifdef POCL_DEVICE_ADDRESS_BITS
+#if defined(POCL_DEVICE_ADDRESS_BITS) && defined(__has_builtin)
+#if __has_builtin(__builtin_reduce_or)
 #define SOME(condition) (__builtin_reduce_or(condition) < 0)
-#else
+#endif
+#endif
+#ifndef SOME
 #define SOME(condition) any(condition)
 #endif
 

@@ -126,6 +126,7 @@ __attribute__((always_inline)) static inline bool next_run(walk_t* walk) {
 // The label of the present run.
 static inline uint run_label(const walk_t* walk) { return walk->row[walk->to - 1]; }
 
+// A loop over the runs of all rows. (`break` would leave a row alone.)
 #define FOR_EACH_RUN(walk, y, z, block, labels, size) \
   FOR_EACH_ROW(y, z, block)                           \
     for (walk_t walk = begin_walk(row_of(labels, y, z, size), block); next_run(&walk);)

@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+import atexit
+import contextlib
 import functools
 import sys
+import weakref
 from typing import TYPE_CHECKING, Any, List, NamedTuple, NoReturn, Optional
 
 from . import _vorocl
@@ -55,6 +58,7 @@ class Device(OnDevice):
 
     def __init__(self, request: str = "") -> None:
         self._device = _vorocl.Device.select(to_text(request, "request"))
+        _made.add(self)
 
     @classmethod
     def from_pyopencl(cls, context: Context, queue: CommandQueue) -> Device:
@@ -75,6 +79,7 @@ class Device(OnDevice):
             raise BadArgument("a device is made from a pyopencl.Context and a pyopencl.CommandQueue")
         device = cls.__new__(cls)
         device._device = _vorocl.Device.adopt(context.int_ptr, queue.int_ptr)
+        _made.add(device)
         return device
 
     @property
@@ -98,6 +103,17 @@ class Device(OnDevice):
 
     def __repr__(self) -> str:
         return f"<vorocl.Device {self.platform}: {self.name}>"
+
+
+_made: weakref.WeakSet[Device] = weakref.WeakSet()
+
+
+@atexit.register
+def _finish_all() -> None:
+    """Wait for what is enqueued: a driver's threads may not work, or compile, while the interpreter ends."""
+    for device in list(_made):
+        with contextlib.suppress(Exception):
+            device.finish()
 
 
 class DeviceDescription(NamedTuple):

@@ -278,11 +278,11 @@ def from_mask(
     """
     pixels = to_pixels(to_image(unmasked(mask), "mask"), "mask")
     labels = output(out, pixels.shape, np.uint32)
-    if metric == "great-circle":
+    if to_text(metric, "metric") == "great-circle":
         raise BadArgument('metric="great-circle" is of points in degrees; the pixels of a mask have none')
     if pixels.ndim == 3 and len(pixels) == 1 and np.size(periodic) == 3:  # a plane, whose z repeats nothing
         periodic = to_periodic(periodic, 3)[:2]
-    if to_text(method, "method") == "exact" and to_text(metric, "metric") == "euclidean":
+    if to_text(method, "method") == "exact" and metric == "euclidean":
         _transform(pixels, False, device, periodic=periodic, ranks=labels)
         return labels
     pixels = pixels[0] if pixels.ndim == 3 and len(pixels) == 1 else pixels
@@ -352,7 +352,7 @@ def mask_tiles(
         if target is not None and found != shape:
             raise BadArgument(f"{name} must be an array of the mask's shape, {shape}; this is {shown(found or target)}")
         held, made = getattr(target, "dtype", None), np.uint32 if name == "labels" else np.float32
-        if held is not None and not np.can_cast(made, held):
+        if isinstance(held, np.dtype) and not np.can_cast(made, held):
             raise BadArgument(f"{name} are {np.dtype(made)}, which this array cannot hold: its dtype is {held}")
     if labels is None and distances is None:
         raise BadArgument("nothing to make: give labels, distances or both")

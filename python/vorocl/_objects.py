@@ -77,7 +77,7 @@ def _refuse_weights(weights: Optional[ArrayLike]) -> None:
 def to_seeds(seeds: Seeds, metric: Metric) -> _vorocl.Seeds:
     if not isinstance(seeds, Seeds):
         raise BadArgument(f"seeds must be vorocl.Seeds; these are of type {type(seeds).__name__}")
-    if metric == "great-circle" and seeds.grid.bounds is None:
+    if to_text(metric, "metric") == "great-circle" and seeds.grid.bounds is None:
         raise BadArgument('metric="great-circle" needs seeds in degrees: give them bounds, such as (-180, -90, 180, 90)')
     return seeds._seeds
 

@@ -50,7 +50,7 @@ metric : {"euclidean", "manhattan", "great-circle"}, optional
     themselves, distances are kilometres on a sphere of 6371.0088 km, and areas square kilometres.""",
     "metric_of_pixels": """\
 metric : {"euclidean", "manhattan"}, optional
-    How far a pixel's centre is from that of another one.""",
+    How far the centres of two pixels are from each other.""",
     "bounds": """\
 bounds : sequence of float, optional
     (x0, y0, x1, y1), the rectangle of the points' plane that the grid shows, or of a volume (x0, y0, z0, x1, y1, z1):
@@ -69,8 +69,8 @@ tilt : float or (float, float, float), optional
     "outside": """\
 outside : {"count", "absent", "refuse"}, optional
     What becomes of points outside the grid or the bounds. "count": the grid is a window of a larger plane, and they are
-    seeds too; a method that floods refuses them, and "exact" one that may own pixels from more than 2**18 pixels away
-    unless it is snapped. "absent": they have no cell. "refuse": they
+    seeds too. A method that floods refuses them. "exact" refuses one that may own pixels and lies more than 2**18 pixels
+    away, unless it is snapped. "absent": they have no cell. "refuse": they
     are an error. With the last two, a point at x1 or y1 is in the last pixel, as along the other axis of a periodic
     grid. In a volume, and with a `spacing`, "count" refuses too.""",
     "y_up": """\

@@ -84,6 +84,17 @@ BOOST_AUTO_TEST_CASE(units_need_an_extent) {
   const Result noted = run(folder, "cells --cells c.csv" + row);
   BOOST_TEST(noted.exit_code == 0);
   BOOST_TEST(noted.error.find("no extent in y, so all measures stay in pixels") != std::string::npos);
+  folder.file("flat.csv", "x,y,z\n0,5,3\n4,1,3\n9,2,3\n");
+  const std::string flat = " --points flat.csv --size 9x5x4 ";
+  refuses(folder, "cells --cells c.csv --units data" + flat, failure,
+          {"flat.csv", "no extent in z", "--units data"});
+  const Result of_voxels = run(folder, "cells --cells c.csv" + flat);
+  BOOST_TEST(of_voxels.error.find("no extent in z, so all measures stay in voxels") != std::string::npos);
+  folder.file("fall.xyz", "3\n\nA 0 0 0\nA 3 1 0\nA 1 2 0\n3\n\nA 0 4 0\nA 3 4 0\nA 1 4 0\n");
+  const std::string fall =
+      "simulate --trajectory fall.xyz --size 9x6 --fit frame --frames 1: --cells f%d.csv";
+  refuses(folder, fall + " --units data", failure, {"fall.xyz", "no extent in y", "--units data"});
+  BOOST_TEST(run(folder, fall).error.find("no extent in y") != std::string::npos);
   succeeds(folder, "cells --cells c.csv --units px" + row);
   succeeds(folder, "cells --cells c.csv --units data --bounds 0,0,20,15" + row);
 }

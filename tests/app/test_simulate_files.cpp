@@ -97,6 +97,12 @@ BOOST_AUTO_TEST_CASE(where_no_frame_is_written_nothing_is_said_to_be) {
       folder, "simulate --trajectory t.xyz --width 9 --frames 3: --every 5 --cells c.csv --statistics s.csv");
   BOOST_TEST(result.exit_code == failure);
   BOOST_TEST((folder.names() == std::set<std::string>{"t.xyz", "s.csv"}));  // rows of all frames
+  // What an earlier run has listed stays.
+  succeeds(folder, "simulate --trajectory t.xyz --width 9 --frames 0:2 --every 2 --labels m%d.vti");
+  const std::string listed = content_of(folder / "m.pvd");
+  refuses(folder, "simulate --trajectory t.xyz --width 9 --frames 3: --every 5 --labels m%d.vti", failure,
+          {"--every 5"});
+  BOOST_TEST(content_of(folder / "m.pvd") == listed);
   succeeds(folder, "simulate --trajectory t.xyz --width 9 --frames 3:4 --every 2 --cells c.csv");
   BOOST_TEST(content_of(folder / "c.csv").find("\n4,") != std::string::npos);
 }

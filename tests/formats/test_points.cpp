@@ -571,7 +571,7 @@ BOOST_AUTO_TEST_CASE(what_is_dropped_of_a_mask_or_spoilt_is_said) {
   BOOST_TEST(spoilt.notes[0].find("--threshold") != std::string::npos);
   BOOST_TEST(clear.notes.empty());
 
-  // A JPEG that ends early, in all ways, and one with other bytes.
+  // A JPEG that ends early, one that is closed there, and one with other bytes.
   cv::RNG random(1);
   cv::Mat noise(64, 64, CV_8U);
   random.fill(noise, cv::RNG::UNIFORM, 0, 256);
@@ -583,8 +583,10 @@ BOOST_AUTO_TEST_CASE(what_is_dropped_of_a_mask_or_spoilt_is_said) {
     BOOST_TEST(read_mask(folder / "whole.jpg", 127.0).notes.empty());
     for (std::size_t end = whole.size() - 1; end > 3; end -= std::min<std::size_t>(end, 97)) {
       folder.file("cut.jpg", whole.substr(0, end));
-      check_error([&] { read_mask(folder / "cut.jpg", 127.0); }, {"cut.jpg", "ends before its pixels do"});
+      check_error([&] { read_mask(folder / "cut.jpg", 127.0); }, {"cut.jpg", "its end is missing"});
     }
+    folder.file("closed.jpg", whole.substr(0, whole.size() / 2) + "\xff\xd9");
+    if (is_progressive == 0) check_error([&] { read_mask(folder / "closed.jpg", 127.0); }, {"is damaged"});
     folder.file("bad.jpg", std::string(whole).replace(whole.size() / 2, 40, 40, '\0'));
     check_error([&] { read_mask(folder / "bad.jpg", 127.0); }, {"bad.jpg", "is damaged"});
   }

@@ -226,6 +226,7 @@ void run_exact(const Command& command, SimulateOptions& options) {
                      "diagrams");
   }
   if (options.seeds.trajectory.empty()) throw UsageError("--exact requires --trajectory");
+  check_every(options.motion.frames, options.output.every);
   options.seeds.is_exact = true;
   options.output.files = {options.output.files.at(1), options.output.files.at(2), options.polygons};
   run_exact_frames(options);
@@ -268,7 +269,6 @@ void add_simulate(CommandLine& line) {
                                    "Cut the cells of a trajectory as polygons or polyhedra, without pixels");
   add_file_option(command, options->polygons, true).needs(exact);
   command.set_work([command, options] {
-    check_every(options->motion.frames, options->output.every);
     if (options->exact) return run_exact(command, *options);
     check_film_options(command, options->output);
     const std::vector<FileRequest>& files = options->output.files;
@@ -277,6 +277,7 @@ void add_simulate(CommandLine& line) {
         std::any_of(files.begin(), files.end(), [](const auto& file) { return !file.path.empty(); });
     if (command.has("--every") && !writes)
       throw UsageError("--every is for -o and for files of each frame, such as --cells: none is asked for");
+    check_every(options->motion.frames, options->output.every);
     check_method_options(command, {options->method}, options->method_options);
     options->seeds.is_volume() ? prepare_volumes(command, *options) : prepare_planes(*options);
     const auto& other = options->compare_with;

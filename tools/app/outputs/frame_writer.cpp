@@ -112,6 +112,7 @@ class FrameFiles {
   /// Writes the file or the rows of a frame, which shows this time. Throws Error for rows in other units than
   /// those of the frames before.
   void add(int frame, std::int64_t time, Measures& measures) {
+    has_frames_ = true;
     if (table_) {
       add_header(frame, measures.view().units);
       request_.kind.table()->add_rows(*table_, fmt::format("{},{},", frame, time), measures);
@@ -130,10 +131,11 @@ class FrameFiles {
   /// The table; null where there are numbered files.
   GrowingFile* table() const { return table_.get(); }
 
-  /// Writes the collection, or gives the table its name, if there is something in it.
+  /// Writes the collection, or gives the table its name, if a frame was added.
   void finish() {
-    if (table_ && !header_.empty()) table_->finish();
-    if (collection_ && !listed_.empty()) write_pvd(*collection_, listed_);
+    if (!has_frames_) return;
+    if (table_) table_->finish();
+    if (collection_) write_pvd(*collection_, listed_);
   }
 
  private:
@@ -167,6 +169,7 @@ class FrameFiles {
   std::string header_, units_;  // of the table, as the first frame is measured; empty before it
   std::optional<OutputFile> collection_;
   std::vector<TimedFile> listed_;
+  bool has_frames_ = false;
 };
 
 /// A table of the diagrams' statistics, one row per frame.

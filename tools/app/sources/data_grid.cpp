@@ -133,7 +133,14 @@ bool warn_of_voxels(const Grid& grid, const std::string& where) {
   return true;
 }
 
-void note_scales(const Grid& grid) {
+namespace {
+Bounds bounds_of(const Grid& grid) {
+  return {grid.x().from(), grid.y().from(), grid.x().to(), grid.y().to(), grid.z().from(), grid.z().to()};
+}
+}  // namespace
+
+void note_scales(const SeedOptions& options, const Grid& grid) {
+  note_no_extent(options, bounds_of(grid), true);
   const double spread = spread_of_units(grid);
   const bool is_rounded = spread > exact && has_scale(grid);  // else a warning says more
   if (grid.is_spaced() || is_rounded) {
@@ -142,19 +149,12 @@ void note_scales(const Grid& grid) {
                     grid.x().spacing(), grid.y().spacing(), grid.z().spacing(),
                     is_rounded ? fmt::format(" to {:.1g} %", 100 * (spread - 1)) : ""));
   }
-  const Axis* const axes[] = {&grid.x(), &grid.y(), &grid.z()};
-  for (std::size_t i = 0; i < 3; ++i) {
-    if (axes[i]->from() < axes[i]->to()) continue;
-    return print_note(fmt::format(
-        "the data have no extent in {}, so all measures stay in voxels; --bounds can give one", names[i]));
-  }
 }
 
 View view_of_grid(const Grid& grid, bool in_pixels) {
   View view = {{Size(grid.width(), grid.height()), grid.depth()}, grid};
   view.units = in_pixels ? Units::of_voxels(grid) : Units(grid, has_scale(grid));
-  const Bounds bounds = {grid.x().from(), grid.y().from(), grid.x().to(),
-                         grid.y().to(),   grid.z().from(), grid.z().to()};
+  const Bounds bounds = bounds_of(grid);
   if (view.units.are_of_data()) view.picture.georeference = Georeference{bounds, false, {}};
   return view;
 }
@@ -196,8 +196,8 @@ Grid box_of_points(const SeedOptions& options, const std::vector<Point>& points,
                           Axis::max_spacing);
   check_inside(points, ids, grid);
   if (options.size) {
+    note_scales(options, grid);
     warn_of_voxels(grid, "");
-    note_scales(grid);
   }
   if (!options.bounds && periodic != Axes::none) {
     print_note("the periods are those of the points' bounding box; --bounds says others");

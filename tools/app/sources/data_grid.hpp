@@ -36,6 +36,6 @@ View view_of_grid(const Grid& grid, bool in_pixels);
 bool warn_of_voxels(const Grid& grid, const std::string& where);
 
 /// Says what may surprise: distances that count voxels as they are long, and data without an extent.
-void note_scales(const Grid& grid);
+void note_scales(const SeedOptions& options, const Grid& grid);
 
 }  // namespace vorocl::command

@@ -188,7 +188,7 @@ class TrajectorySeeds : public MovingSeeds {
     try {
       const Grid grid = is_volume_ ? box_of_frame(options_, frame, points, fitted_)
                                    : rectangle_of_frame(options_, frame, is_first_);
-      if (is_first_ && options_.size) note_scales(grid);
+      if (is_first_ && options_.size) note_scales(options_, grid);
       if (!scales_checked_ && options_.size)
         scales_checked_ = warn_of_voxels(grid, fmt::format("frame {}: ", number_read_));
       Input input = {view_of_grid(grid, in_pixels(options_))};
@@ -247,7 +247,6 @@ class TrajectorySeeds : public MovingSeeds {
 
   void note_of_scales(const Bounds& bounds, std::size_t outside) {
     const Grid grid = picture_->grid();
-    if (!scales_checked_) note_no_extent(options_, bounds);
     if (fit_ == Fit::frame && !options_.bounds) {
       warn_of_scales(bounds, grid, "--fit all has one scale for all frames");
     } else if (!scales_checked_) {
@@ -282,6 +281,7 @@ class TrajectorySeeds : public MovingSeeds {
     Periods periods;
     Weights weights;
     try {
+      if (bounds) no_extent_noted_ = no_extent_noted_ || note_no_extent(options_, *bounds);
       const bool has_weights = bounds && !options_.weight_column.empty();
       const double squares = has_weights ? pixels_of_square(*bounds, *picture_) : 1;
       if (bounds) mapped = map_points(frame.positions, mapping_of_frame(*bounds), *picture_, frame.ids);
@@ -334,6 +334,7 @@ class TrajectorySeeds : public MovingSeeds {
   bool has_boxes_ = false;        // the first frame has one
   bool scales_checked_ = false;
   bool growth_noted_ = false;
+  bool no_extent_noted_ = false;
 
   std::optional<Size> picture_;   // the same for all frames
   std::optional<Window> window_;  // of the last frame

@@ -201,12 +201,18 @@ Weights weights_of(const SeedOptions& options, const ColumnValues& values,
   return weights;
 }
 
-void note_no_extent(const SeedOptions& options, const Bounds& bounds) {
-  if ((bounds.x0 < bounds.x1 && bounds.y0 < bounds.y1) || in_pixels(options)) return;
-  const std::string text = fmt::format("the data have no extent in {}", bounds.x0 < bounds.x1 ? "y" : "x");
+bool note_no_extent(const SeedOptions& options, const Bounds& bounds, bool of_volume) {
+  const char* const axis = !(bounds.x0 < bounds.x1)        ? "x"
+                           : !(bounds.y0 < bounds.y1)      ? "y"
+                           : of_volume && !bounds.is_box() ? "z"
+                                                           : nullptr;
+  if (axis == nullptr || in_pixels(options)) return false;
+  const std::string text = fmt::format("the data have no extent in {}", axis);
   const char* const told = options.units ? "--units data" : options.crs ? "--crs" : nullptr;
   if (told != nullptr) throw Error(fmt::format("{}, so {} needs --bounds that have one", text, told));
-  print_note(text + ", so all measures stay in pixels; --bounds can give one");
+  print_note(fmt::format("{}, so all measures stay in {}; --bounds can give one", text,
+                         of_volume ? "voxels" : "pixels"));
+  return true;
 }
 
 double pixels_of_square(const Bounds& bounds, const Size& picture) {

@@ -102,9 +102,9 @@ Points weighted(const std::vector<Point>& points, const Weights& weights) {
 Weights weights_of(const SeedOptions& options, const ColumnValues& values,
                    const std::vector<std::uint32_t>& ids, double squares = 1);
 
-/// Where bounds have no extent along an axis, says that all measures stay in pixels. Throws Error if the
-/// options say something of units.
-void note_no_extent(const SeedOptions& options, const Bounds& bounds);
+/// Where bounds have no extent along an axis, says that all measures stay in pixels, and returns true. Throws
+/// Error if the options say something of units.
+bool note_no_extent(const SeedOptions& options, const Bounds& bounds, bool of_volume = false);
 
 /// How many pixels there are in a square of the data's unit. Throws Error if they are no squares.
 double pixels_of_square(const Bounds& bounds, const Size& picture);

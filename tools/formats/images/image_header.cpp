@@ -72,8 +72,7 @@ ImageHeader read_bmp(const FileBytes& bytes) {
 bool is_jpeg(const FileBytes& bytes) { return bytes.starts_with("\xff\xd8\xff"); }
 
 /// The first marker that starts a frame (SOF), behind those of tables and comments. Behind the start of a
-/// scan (SOS) the marker of the end must come, for OpenCV shows what there is. (In a scan no 0xff is followed
-/// by that.)
+/// scan (SOS) the marker of the end must come, for OpenCV shows what there is. (Coded data never holds it.)
 ImageHeader read_jpeg(const std::string& path, const FileBytes& bytes) {
   ImageHeader header;
   for (std::size_t place = 2; place + 9 < bytes.size();) {
@@ -94,7 +93,7 @@ ImageHeader read_jpeg(const std::string& path, const FileBytes& bytes) {
     }
     place += 2 + bytes.big_endian(place + 2, 2);
   }
-  throw Error(path + " is damaged: it ends before its pixels do");
+  throw Error(path + " is damaged: its end is missing, or a marker before that");
 }
 
 bool is_pnm(const FileBytes& bytes) {

@@ -40,7 +40,7 @@ class KeptStandardError {
   int standard_error_, kept_;
 };
 
-/// Of a damaged JPEG libjpeg makes up what is missing, and says so.
+/// Of a damaged JPEG libjpeg makes up what is missing. It prints the first thing alone that it finds wrong.
 bool is_damaged(const std::string& heard) { return heard.find("Corrupt JPEG data") != std::string::npos; }
 
 /// What `work` makes; nothing if OpenCV refuses it, whose texts name its own source lines, or has made it up.
