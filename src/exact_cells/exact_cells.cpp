@@ -127,9 +127,12 @@ struct ExactCellsState {
   /// Launches a kernel that takes the sites (SITE_PARAMETERS of lanes.cl) first.
   template <typename... More>
   cl::Event over_sites(const char* file, const char* name, std::size_t items, const More&... more) {
+    // On a CPU an item has much to do, and LLVM 18 (PoCL 6.0) fails where it makes vectors of items.
+    const std::size_t items_of_group = device->tuning().shape == Shape::vector ? 1 : 0;
     return std::visit(
         [&](const auto& of) {
           return kernel(file, name)
+              .in_groups_of(items_of_group)
               .over_items(items, site_count, places, boxes, levels, lags, box_lags, top_level, of.lower,
                           of.upper, of.reach, shifts, static_cast<cl_int>(of.images.size()), more...);
         },
