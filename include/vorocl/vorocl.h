@@ -45,7 +45,7 @@ extern "C" {
 typedef enum vorocl_status {
   VOROCL_SUCCESS = 0,
   VOROCL_BAD_ARGUMENT = 1,   ///< an argument is out of its range, or two do not fit together
-  VOROCL_NULL_ARGUMENT = 2,  ///< a pointer that must not be NULL is; nothing has been done
+  VOROCL_NULL_ARGUMENT = 2,  ///< a pointer that must not be NULL is
   VOROCL_OUT_OF_HOST_MEMORY = 3,
   VOROCL_BAD_POINT = 4,  ///< a seed's point is NaN, infinite or too far away: see vorocl_bad_point()
   VOROCL_OUT_OF_DEVICE_MEMORY = 5,
@@ -388,7 +388,8 @@ VOROCL_API vorocl_status vorocl_diagram_write_buffer(vorocl_diagram* diagram, cl
                                                      const vorocl_seeds* seeds, vorocl_metric metric);
 
 /// Completes with the labels of the last method that was to fill the diagram, and is valid until the next one
-/// is called. NULL before the first, after one that failed, and after labels were written or that failed.
+/// is called. NULL before the first, after one that failed, and after labels were written or that failed. (A
+/// call that a NULL argument fails has not begun.)
 VOROCL_API vorocl_status vorocl_diagram_event(const vorocl_diagram* diagram, cl_event* event);
 
 /// The last method's waves, the device's time (0 if the queue does not profile; waits) and the host's: 0

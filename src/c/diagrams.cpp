@@ -42,7 +42,6 @@ namespace {
 
 template <typename Labels>
 void write(vorocl_diagram& diagram, const Labels& labels, const vorocl_seeds* seeds, vorocl_metric metric) {
-  diagram.report = {};
   if (seeds == nullptr) {
     diagram.diagram.write(labels);
   } else {
@@ -67,7 +66,8 @@ vorocl_status vorocl_diagram_write_buffer(vorocl_diagram* diagram, cl_mem labels
                                           vorocl_metric metric) {
   return guarded([&] {
     given(labels, "labels");
-    write(given(diagram, "diagram"), retained(labels), seeds, metric);
+    given(diagram, "diagram").report = {};
+    write(*diagram, retained(labels), seeds, metric);
   });
 }
 

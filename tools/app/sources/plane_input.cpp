@@ -78,6 +78,7 @@ PlaneFacts map_points(const SeedOptions& options, const Grid& plane, const Surve
   const Bounds bounds = options.bounds.value_or(widened(survey.box, options.margin));
   const Outside outside = options.outside.value_or(Outside::count);
   check_bounds(bounds, plane.periodic());
+  note_no_extent(options, bounds);
   const Grid data =
       with_bounds(plane, bounds, !options.bounds || outside == Outside::refuse, points_up(options));
   reading.reserve(survey.rows);
@@ -116,7 +117,6 @@ PlaneFacts map_points(const SeedOptions& options, const Grid& plane, const Surve
     hash.add(first, places);
   };
   read_in_blocks(options.points, options.csv(), reading.slice, add);
-  note_no_extent(options, bounds);
   warn_of_scales(bounds, plane, "give a --size of the same shape");
   if (plane.periodic() != Axes::none && !options.bounds) {
     print_note(fmt::format("the period is the bounding box of the points{}, {}; --bounds says another one",
