@@ -732,7 +732,7 @@ BOOST_AUTO_TEST_CASE(the_curve_that_sorts_points_does_not_jump) {
 BOOST_AUTO_TEST_CASE(buffers_hold_what_is_read_and_work_groups_change_no_bit) {
   const Set set = {"random", side, side, random_positions(side, side, 500, 10)};
   Tuning tuning = test_device().tuning();
-  tuning.group_width = 3;
+  tuning.group_width = 2;  // with 3, LLVM 18 under PoCL 6.0 ends the process: pocl issue 1608
   tuning.group_height = 1;
   tuning.vector_width = 1;
   tuning.shape = Shape::group;

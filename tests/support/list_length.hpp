@@ -36,8 +36,7 @@ inline Device with_lists(const Device& device, ListLength lists) {
       devices.try_emplace({device.queue()(), most}, device.context(), device.queue());
   if (is_new) {
     DeviceState& state = Internal::state(found->second);
-    // Nobody else has short lists: PoCL takes half as long to compile them without optimising.
-    state.build_options = std::string("-cl-opt-disable ") + short_lists;
+    state.build_options = short_lists;
     state.limits.items = std::min(state.limits.items, most);
   }
   return found->second.with_tuning(tuning);
