@@ -417,7 +417,7 @@ std::vector<ExactPair> ExactCellsResult::read_pairs() const {
   pairs.reserve(polygons.vertices.size() / 2);
   std::vector<std::size_t> own;  // edges that a cell shares with itself
   for (std::uint32_t a = 0; a + 1 < polygons.offsets.size(); ++a) {
-    const std::size_t begin = polygons.offsets[a], end = polygons.offsets[a + 1];
+    const std::size_t first = pairs.size(), begin = polygons.offsets[a], end = polygons.offsets[a + 1];
     const auto ends = [&](std::size_t i) {
       return std::make_pair(polygons.vertices[i], polygons.vertices[i + 1 < end ? i + 1 : begin]);
     };
@@ -440,10 +440,11 @@ std::vector<ExactPair> ExactCellsResult::read_pairs() const {
       const bool is_meant = to.y > from.y || (to.y == from.y && to.x < from.x);
       add(own[is_meant ? i : i + half]);
     }
+    std::sort(pairs.begin() + static_cast<std::ptrdiff_t>(first), pairs.end(),
+              [](const ExactPair& p, const ExactPair& q) {
+                return std::tie(p.b, p.midpoint.x, p.midpoint.y) < std::tie(q.b, q.midpoint.x, q.midpoint.y);
+              });
   }
-  std::sort(pairs.begin(), pairs.end(), [](const ExactPair& p, const ExactPair& q) {
-    return std::tie(p.a, p.b, p.midpoint.x, p.midpoint.y) < std::tie(q.a, q.b, q.midpoint.x, q.midpoint.y);
-  });
   return pairs;
 }
 

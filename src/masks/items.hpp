@@ -14,10 +14,4 @@ inline std::size_t items_of(const Device& device) {
   return std::max(least, each_unit * units_of(device));
 }
 
-/// The same of painting seeds, where each looks at all of them.
-inline std::size_t painters_of(const Device& device) {
-  constexpr std::size_t most = 8;
-  return std::min(most, units_of(device));
-}
-
 }  // namespace vorocl

@@ -154,7 +154,7 @@ cl::Event Marks::paint(KernelSet& kernels, const PixelGrid& grid, const cl::Buff
   }
   return mask_kernel(kernels, device, "paint_seeds")
       .in_groups_of(1)
-      .over_items(std::min(painters_of(device), shape.rows()), positions, static_cast<cl_uint>(seeds),
+      .over_items(std::min(units_of(device), shape.rows()), positions, static_cast<cl_uint>(seeds),
                   shape.width, shape.height, static_cast<cl_int>(shape.rows()), bits_of_position.x,
                   bits_of_position.y, bits, counts, labels);
 }

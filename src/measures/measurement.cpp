@@ -20,7 +20,7 @@ Device with_groups_for_blocks(const Device& device) {
 
 /// The blocks of planes and of volumes.
 constexpr cl_int4 plane_blocks_on_a_cpu = {{8, 7, 0, 0}}, plane_blocks_on_a_gpu = {{5, 3, 0, 0}};
-constexpr cl_int4 blocks_on_a_cpu = {{6, 6, 6, 0}}, blocks_on_a_gpu = {{5, 2, 1, 0}};
+constexpr cl_int4 blocks_on_a_cpu = {{6, 5, 5, 0}}, blocks_on_a_gpu = {{5, 2, 1, 0}};
 
 cl_int4 bits_of_blocks(const Device& device, const PixelGrid& grid) {
   if (grid.has_voxels()) return works_in_vectors(device) ? blocks_on_a_cpu : blocks_on_a_gpu;
