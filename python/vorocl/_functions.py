@@ -454,9 +454,9 @@ def distance_transform_edt(
         One to three dimensions, of numbers or booleans. One pixel at least must be zero. NaN is not.
     sampling : float or sequence of float, optional
         The size of a pixel: a number, or one for each axis; none is more than 1,000 times another one. Sizes that are to
-        each other as whole numbers up to 1,000 (181 where a side has more than 8,192 pixels), such as 0.065, 0.065 and
-        0.2, are taken exactly. Of others the squares are rounded to 2**-20 (2**-15) of the greatest one: of two zeros
-        whose distances differ by less the farther one may be taken.
+        each other as whole numbers up to 1,000, such as 0.065, 0.065 and 0.2, are taken exactly. Others are rounded for
+        comparisons: a zero whose distance is greater by a part of 2**-49 (D / s)**2 may be taken, where D is the image's
+        diagonal and s the least size (2e-9 where D is 1,000 s; four times as much where a side has 16,384 pixels).
     return_distances, return_indices : bool, optional
         What is wanted: one of them or both.
     distances : ndarray, optional

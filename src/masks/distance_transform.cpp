@@ -20,7 +20,7 @@ struct DistanceTransformState {
       : device(device_of_images),
         grid(grid_of_images),
         shape(grid_of_images),
-        whole(whole_sizes(size_of_pixel, std::max({shape.width, shape.height, shape.depth}))),
+        whole(whole_sizes(size_of_pixel, shape.sides())),
         engine(device, shape, size_of_pixel, whole),
         marks(device, shape) {}
 

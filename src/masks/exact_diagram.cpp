@@ -23,7 +23,7 @@ MaskEngine& engine_of(const DiagramState& state, PassesWorkspace& memory, const 
   const auto [x, y, z] = grid.spacing();
   const PixelSize size = {double(x), double(y), double(z)};
   memory.seeds.emplace(state.device, shape);
-  return engine.emplace(state.device, shape, size, whole_sizes(size, grid.longest_side()), metric);
+  return engine.emplace(state.device, shape, size, whole_sizes(size, shape.sides()), metric);
 }
 
 /// Whether the diagram shows all of a mask that the seeds were made from.

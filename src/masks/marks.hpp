@@ -1,6 +1,7 @@
 // Which pixels of an image others look for: see kernels/masks/marks.cl.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 
@@ -20,6 +21,7 @@ struct ImageShape {
   /// Throws Error unless an image of the grid can be transformed.
   explicit ImageShape(const Grid& grid);
 
+  std::array<int, 3> sides() const { return {width, height, depth}; }
   std::size_t rows() const { return static_cast<std::size_t>(height) * static_cast<std::size_t>(depth); }
   std::size_t pixels() const { return static_cast<std::size_t>(width) * rows(); }
 

@@ -17,9 +17,22 @@ using Lengths = std::array<double, 3>;
 constexpr double most_apart = 1000;
 constexpr double shortest = 1e-140, longest = 1e140;  // the squares of distances are doubles
 
-/// Keys have 62 bits for squared distances and the number of a site: so long sides have shorter numbers.
-constexpr std::int64_t most_of_long_sides = 8192;
-int bits_of_squares(std::int64_t longest_side) { return longest_side <= most_of_long_sides ? 20 : 15; }
+/// Of the square of an image's diagonal in units. Keys have 62 bits for it and the number of a site; rounded
+/// squares of lengths make it at most twice as long.
+int bits_of_diagonal(const std::array<int, 3>& sides) {
+  int bits = 61;
+  for (int longest = *std::max_element(sides.begin(), sides.end()) - 1; longest > 0; longest /= 2) --bits;
+  return std::min(bits, 48);
+}
+
+/// The square of an image's diagonal, from the squares of a pixel's lengths.
+template <typename Square>
+double diagonal_of(const std::array<Square, 3>& squares, const std::array<int, 3>& sides) {
+  double sum = 0;
+  for (std::size_t axis = 0; axis < sides.size(); ++axis)
+    sum += double(sides[axis]) * double(sides[axis]) * double(squares[axis]);
+  return sum;
+}
 
 void check_lengths(const Lengths& lengths) {
   std::ostringstream text;
@@ -36,14 +49,14 @@ void check_lengths(const Lengths& lengths) {
   throw Error(text.str());
 }
 
-/// The lengths as multiples of a part of the greatest one, if they are: whole numbers up to `most`.
-std::optional<WholeSizes> multiples_of(const Lengths& lengths, double part, double most) {
+/// The lengths as multiples of a part of the greatest one, if they are: whole numbers up to 1,000.
+std::optional<WholeSizes> multiples_of(const Lengths& lengths, double part) {
   constexpr double tolerance = 4 * std::numeric_limits<double>::epsilon();
   WholeSizes whole;
   whole.unit = part * part;
   for (std::size_t axis = 0; axis < lengths.size(); ++axis) {
     const double multiple = std::nearbyint(lengths[axis] / part);
-    if (multiple < 1 || multiple > most ||
+    if (multiple < 1 || multiple > most_apart ||
         std::abs(multiple * part - lengths[axis]) > tolerance * lengths[axis])
       return {};
     whole.squares[axis] = static_cast<std::int64_t>(multiple * multiple);
@@ -53,20 +66,23 @@ std::optional<WholeSizes> multiples_of(const Lengths& lengths, double part, doub
 
 }  // namespace
 
-WholeSizes whole_sizes(const PixelSize& size, std::int64_t longest_side) {
+WholeSizes whole_sizes(const PixelSize& size, const std::array<int, 3>& sides) {
   const Lengths lengths = {size.x, size.y, size.z};
   check_lengths(lengths);
-  const int bits = bits_of_squares(longest_side);
-  const double most = std::min(most_apart, std::floor(std::sqrt(std::ldexp(1, bits))));
-  if (const auto whole = multiples_of(lengths, 1, most)) return *whole;
+  const int bits = bits_of_diagonal(sides);
+  const auto fits = [&](const std::optional<WholeSizes>& whole) {
+    return whole && diagonal_of(whole->squares, sides) <= std::ldexp(1, bits);
+  };
+  if (const auto whole = multiples_of(lengths, 1); fits(whole)) return *whole;
   const double greatest = *std::max_element(lengths.begin(), lengths.end());
-  for (double parts = 1; parts <= most; ++parts) {
-    if (const auto whole = multiples_of(lengths, greatest / parts, most)) return *whole;
+  for (double parts = 1; parts <= most_apart; ++parts) {
+    if (const auto whole = multiples_of(lengths, greatest / parts); fits(whole)) return *whole;
   }
+  const Lengths squares = {size.x * size.x, size.y * size.y, size.z * size.z};
   WholeSizes whole;
-  whole.unit = std::ldexp(greatest * greatest, -bits);
+  whole.unit = std::ldexp(diagonal_of(squares, sides), -bits);
   for (std::size_t axis = 0; axis < lengths.size(); ++axis) {
-    const double square = std::nearbyint(lengths[axis] * lengths[axis] / whole.unit);
+    const double square = std::nearbyint(squares[axis] / whole.unit);
     whole.squares[axis] = std::max<std::int64_t>(1, static_cast<std::int64_t>(square));
   }
   return whole;

@@ -17,6 +17,7 @@ struct WholeSizes {
 };
 
 /// See PixelSize. Throws Error unless the lengths are positive and finite and at most 1,000 times each other.
-WholeSizes whole_sizes(const PixelSize& size, std::int64_t longest_side);
+/// `sides` are those of the image in pixels.
+WholeSizes whole_sizes(const PixelSize& size, const std::array<int, 3>& sides);
 
 }  // namespace vorocl

@@ -420,6 +420,42 @@ BOOST_AUTO_TEST_CASE(values_grow_by_whole_pixels_whatever_their_lengths) {
   }
 }
 
+/// Lengths that are no whole numbers are rounded, for comparisons, to far less than distances differ by.
+BOOST_AUTO_TEST_CASE(lengths_of_any_ratio_find_the_nearest) {
+  std::mt19937 random(4);
+  for (const auto& [grid, size] : {std::pair{Grid(1000, 2), PixelSize{1.2246, 999.9, 1}},
+                                   {Grid(3, 900), {300.1, 0.3337, 1}},
+                                   {Grid(40, 9, 200), {7.77, 313.1, 0.5013}},
+                                   {Grid(300, 300), {1.337, 100.3, 1}}}) {
+    const std::size_t pixels = grid.pixels(), width = static_cast<std::size_t>(grid.width()),
+                      height = static_cast<std::size_t>(grid.height());
+    Bytes image(pixels, 1);
+    for (int zeros = 0; zeros < 12; ++zeros) image[random() % pixels] = 0;
+    std::vector<double> distances(pixels);
+    DistanceTransform transform(test_device(), grid, size);
+    TransformTargets targets;
+    targets.distances = {distances.data(), PixelType::float64};
+    transform.run({image.data(), PixelType::uint8}, targets, {Marked::zeros});
+    const auto place_of = [&](std::size_t i) {
+      return Point{double(i % width) * size.x, double(i / width % height) * size.y,
+                   double(i / width / height) * size.z};
+    };
+    std::vector<Point> zeros;
+    for (std::size_t i = 0; i < pixels; ++i) {
+      if (image[i] == 0) zeros.push_back(place_of(i));
+    }
+    double worst = 0;
+    for (std::size_t i = 0; i < pixels; ++i) {
+      const Point p = place_of(i);
+      double nearest = std::numeric_limits<double>::infinity();
+      for (const Point& zero : zeros)
+        nearest = std::min(nearest, std::hypot(zero.x - p.x, zero.y - p.y, zero.z - p.z));
+      worst = std::max(worst, nearest == 0 ? distances[i] : distances[i] / nearest - 1);
+    }
+    BOOST_TEST(worst < 1e-7);
+  }
+}
+
 /// Behind the end of a short row of long pixels no mark is near enough for keys of 32 bits, and what a lane
 /// there finds is read: here where memory holds anything.
 BOOST_AUTO_TEST_CASE(lanes_behind_a_row_find_marks_too) {
@@ -581,7 +617,7 @@ BOOST_AUTO_TEST_CASE(work_items_have_a_byte_per_pixel_or_there_is_one_for_each_u
   const Grid grid(512, 16384);
   const Device device = test_device();
   const ImageShape shape(grid);
-  MaskEngine engine(device, shape, {}, whole_sizes({}, grid.height()));
+  MaskEngine engine(device, shape, {}, whole_sizes({}, shape.sides()));
   Marks marks(device, shape);
   NearestTargets targets;
   targets.distances = cl::Buffer(device.context(), CL_MEM_READ_WRITE, shape.pixels() * sizeof(float));
