@@ -66,10 +66,10 @@ enum class Marked {
 ///
 /// Distances are compared as whole numbers. Where the lengths are to each other as whole numbers up to 1,000
 /// (0.065, 0.065 and 0.2 are as 13, 13 and 40; to a rounding of double), these are taken, and nothing is
-/// rounded; in images with a side of more than 8,192 pixels the numbers may have to be less. Else the squares of
-/// the lengths are rounded to 2^-48 of the square of the image's diagonal D (2^-46 where a side has more than
-/// 16,384 pixels, 2^-47 where it has more than 8,192). A pixel may take a marked one whose distance is greater
-/// by a part of 2^-49 (D / s)^2, where s is the least length: 2e-9 where D is 1,000 s.
+/// rounded; in images with a side of more than 8,192 pixels the numbers may have to be less. Else the squares
+/// of the lengths are rounded to 2^-48 of the square of the image's diagonal D (2^-46 where a side has more
+/// than 16,384 pixels, 2^-47 where it has more than 8,192). A pixel may take a marked one whose distance is
+/// greater by a part of 2^-49 (D / s)^2, where s is the least length: 2e-9 where D is 1,000 s.
 struct PixelSize {
   double x = 1;
   double y = 1;

@@ -42,8 +42,8 @@ struct RelaxOptions {
 
   /// Whether a seed goes to the centroid of its polygon, in a volume of its polyhedron, as exact_cells() cuts
   /// it in the units of the data. Seeds lie anywhere then, in volumes too, and so their cells become as even
-  /// as those of Lloyd's algorithm on polygons with any number of pixels: these are of the diagrams and of
-  /// the energies alone. There is no density.
+  /// as those of Lloyd's algorithm on polygons where there are four pixels or more for each seed: these are
+  /// of the diagrams, the energies and the tolerance. There is no density.
   bool exact = false;
 };
 
@@ -64,7 +64,7 @@ VOROCL_API double energy(const Diagram& diagram);
 /// pixel; seeds of Seeds::random() and Seeds::from_mask() begin at the centres of their pixels. Seeds of
 /// points with Snap::to_pixels go to the pixel nearest to the centroid (if two are, and the seed is on one of
 /// them, it stays): they soon stay where their cells are far from even (docs/relaxation.md). So do all seeds
-/// of volumes and spaced planes, which go to the nearest voxel. Ends after so
+/// of volumes and spaced planes, which go to the nearest voxel or stay in it. Ends after so
 /// many rounds, when no seed would move by the tolerance, or when the observer says so. In the end the
 /// diagram is that of the seeds.
 ///

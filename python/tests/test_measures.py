@@ -98,6 +98,13 @@ def test_lengths_without_a_scale_are_refused_or_named(points):
     np.testing.assert_array_equal(vorocl.distances(given, SHAPE, units="pixels", **plane), vorocl.distances(points, SHAPE))
 
 
+@pytest.mark.parametrize("shape, bounds", [((10, 1), (0, 0, 1, 10000)), ((1, 10), (0, 0, 10, 1.4))])
+def test_one_row_of_long_pixels_has_no_scale(shape, bounds):
+    with pytest.raises(vorocl.BadArgument, match='give units="pixels"'):
+        vorocl.distances([(0.5, 0.5)], shape, bounds=bounds)
+    assert "largest_distance_px" in vorocl.cells([(0.5, 0.5)], shape, bounds=bounds).dtype.names
+
+
 @pytest.mark.parametrize("periodic", [(False, False), (True, False), (True, True)])
 def test_pairs_are_those_of_the_labels(points, periodic):
     labels = brute_force(points, SHAPE, periodic)

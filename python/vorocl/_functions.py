@@ -636,7 +636,8 @@ def relax(
     """Move points to the centroids of their cells, again and again: Lloyd's algorithm on pixels, or on polygons.
 
     A round moves every point to its cell's centroid, rounded to 1/4096 of a pixel, in Euclidean diagrams; to the pixel
-    or voxel that is nearest to it where points are snapped, and in volumes. Ctrl-C ends it after a round.
+    or voxel that is nearest to it where points are snapped, and in volumes, where it stays if it lies there. Ctrl-C ends
+    it after a round.
 
     Parameters
     ----------
@@ -650,8 +651,8 @@ def relax(
         root of the density: give its square for points as dense as it is.
     exact : bool, optional
         Move the points to the centroids of their polygons, in volumes of their polyhedra, as `exact_cells` cuts them:
-        anywhere, so that cells become as even as polygons do with any number of pixels. The energies are of pixels.
-        Without a density, and not of snapped points.
+        anywhere, so that cells become as even as polygons do where there are four pixels or more for each point. The
+        energies and the end are of pixels. Without a density, and not of snapped points.
     <method, outside, snap, device>
 
     Returns

@@ -419,10 +419,10 @@ class Diagram(OnDevice):
             length = (area / units) ** (1 / len(sides)) if max(lengths) <= 1.01 * min(lengths) else None
             return area, length, length if units == 1 else None
         (width, height), (extent_x, extent_y) = sides, extents
-        # To the nearest whole number of pixels.
-        is_square = (
-            abs(height - max(1.0, width * extent_y / extent_x)) <= 0.5
-            or abs(width - max(1.0, height * extent_x / extent_y)) <= 0.5
+        # To the nearest whole number of pixels, which may change a pixel's sides by 5 %.
+        ratio = extent_x * height / (extent_y * width)
+        is_square = max(ratio, 1 / ratio) <= 1.05 and (
+            abs(height - width * extent_y / extent_x) <= 0.5 or abs(width - height * extent_x / extent_y) <= 0.5
         )
         length = math.sqrt(area) if is_square else None
         return area, length, length

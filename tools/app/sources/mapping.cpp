@@ -146,18 +146,16 @@ Units units_of(const Mapping& mapping, const PlacedAxes& axes, const Size& pictu
           mapping.has_one_scale && has_square_pixels(mapping.bounds, picture.grid())};
 }
 
-/// The diagram is all of its grid where the picture shows that, with all points, else what the picture shows.
-View view_of(const Mapping& mapping, const PlacedAxes& axes, const Size& picture, bool holds_all) {
+/// Along an axis the diagram is all of its grid where the picture shows that, else what the picture shows.
+View view_of(const Mapping& mapping, const PlacedAxes& axes, const Size& picture) {
   Stretch x = axes.x.shown(), y = axes.y.shown();
   if (x.length == 0 || y.length == 0) {
     throw Error("the box " + to_string(*mapping.domain) + " lies outside the bounds " +
                 to_string(mapping.bounds) + "; give --bounds that hold a part of it");
   }
   const Stretch grid_x = axes.x.grid(), grid_y = axes.y.grid();
-  if (holds_all && grid_x.is_within(picture.width()) && grid_y.is_within(picture.height())) {
-    x = grid_x;
-    y = grid_y;
-  }
+  if (grid_x.is_within(picture.width())) x = grid_x;
+  if (grid_y.is_within(picture.height())) y = grid_y;
   const double tilt = mapping.tilt == 0 ? 0 : mapping.tilt / axes.x.scale().side_of_pixel();
   const Grid grid = Grid(grid_x.length, grid_y.length, mapping.periodic).tilted(mapping.y_up ? -tilt : tilt);
   const std::int64_t first_x = grid_x.begin - x.begin, first_y = grid_y.begin - y.begin;
@@ -204,7 +202,7 @@ MappedPoints map_points(const std::vector<Point>& points, const Mapping& mapping
     place.x -= static_cast<double>(x.begin);
     place.y -= static_cast<double>(y.begin);
   }
-  return {view_of(mapping, axes, picture, outside == 0), std::move(places), outside};
+  return {view_of(mapping, axes, picture), std::move(places), outside};
 }
 
 }  // namespace vorocl::command
