@@ -1,8 +1,9 @@
 #!/usr/bin/env bash
 # vorocl-mpi tiles against vorocl tiles: the same bytes from one to four processes, also after some were killed, and one
-# message where it cannot be: test_shared_tiles.sh FOLDER_OF_COMMANDS
+# message where it cannot be: test_shared_tiles.sh FOLDER_OF_COMMANDS FAULTS. An empty FAULTS: no library of faults.cpp.
 set -euo pipefail
 commands=$1
+faults=$2
 kills=${VOROCL_LONG_TESTS:+50}
 ranks=$(dirname "$(readlink -f "$0")")/run_ranks.sh
 folder=$(mktemp -d)
@@ -69,6 +70,33 @@ for kill in $(seq "${kills:-2}"); do
   [ -z "$(ls -A | grep -vxE 'alone.*|blobs.csv|log')" ] || fail "after kill $kill: left $(ls -A)"
 done
 
+# A run that ends while its outputs get their names is completed, whether one has its name or all have.
+ended() { # OUTPUTS ...
+  local options=(--random 100 --size 100x100 --tile 64 --resume "$@")
+  mkdir whole left
+  (cd whole && "$commands/vorocl" tiles "${options[@]}" >/dev/null)
+  cd left
+  if LD_PRELOAD=$faults VOROCL_FAULT='rename 3 on' "$commands/vorocl" tiles "${options[@]}" >../log 2>&1; then
+    fail "$*: was not ended"
+  fi
+  [ -e "$2" ] && [ ! -e "$4" ] && [ -e "$4.part" ] || fail "$*: not one has its name: $(ls)"
+  cp "$2.journal" ../journal
+  for count in 2 3; do
+    cp ../journal "$2.journal"
+    "$ranks" $count "$commands/vorocl-mpi" tiles "${options[@]}" >../log 2>&1 || fail "$count ranks, $*: $(cat ../log)"
+    ! grep -q 'made none' ../log || fail "$count ranks, $*: a note on nothing to make"
+    diff -r . ../whole || fail "$count ranks, $*: other files"
+  done
+  cd ..
+  rm -r whole left journal
+}
+if [ -n "$faults" ]; then
+  ended --labels a.npy --distance b.npy
+  ended --labels a.zarr --distance b.zarr
+  ended --labels a.npy -o b.png
+  ended --labels a.npy --cells b.csv
+fi
+
 # A process that stops for a while keeps no other from its end, however much it has to tell of its cells.
 cat >slow.sh <<'END'
 #!/usr/bin/env bash
@@ -94,6 +122,7 @@ refused 'cannot read missing.csv' 3 --points missing.csv --size 100x100 --labels
 refused 'take .zarr or .npy' 2 --random 10 --size 100x100 --labels x.tif
 refused 'take .zarr or .npy' 2 --random 10 --size 100x100 --distance x.tif
 refused 'nothing to write' 2 --random 10 --size 100x100
+refused 'mask is for vorocl tiles' 2 --mask missing.png --labels x.npy
 if "$ranks" 1 "$commands/vorocl-mpi" >log 2>&1; then fail "no subcommand: was not refused"; fi
 grep -q '^vorocl-mpi: error: .*; see vorocl-mpi --help$' log || fail "no subcommand: $(cat log)"
 refused "the plane's width is 0" 2 --random 10 --size 0x100 --labels x.npy

@@ -41,7 +41,9 @@ class SharedPlaneWriter {
   /// Throws Error as PlaneWriter.
   SharedPlaneWriter(const Ranks& ranks, PlaneWriterOptions options, const Tiling& tiling,
                     const std::optional<Georeference>& georeference, const std::string& run)
-      : ranks_(ranks), has_tables_(!options.cells.empty() || !options.adjacency.empty()) {
+      : ranks_(ranks),
+        tiles_(tiling.count()),
+        has_tables_(!options.cells.empty() || !options.adjacency.empty()) {
     if (ranks_.rank == 0) {
       check_journal(options);
       options.resume = true;
@@ -64,6 +66,7 @@ class SharedPlaneWriter {
     MPI_Bcast(made.data(), static_cast<int>(count), MPI_UINT64_T, 0, ranks_.communicator);
     made_before_.insert(made.begin(), made.end());
     known_ = made.size();
+    if (made.size() == tiles_) files_.clear();  // nothing is to be written: they may have their names already
     for (const auto& file : files_) file->join();
   }
 
@@ -192,6 +195,7 @@ class SharedPlaneWriter {
   }
 
   Ranks ranks_;
+  std::uint64_t tiles_;
   bool has_tables_;
   std::unique_ptr<PlaneWriter> writer_;  // on rank 0
   std::set<std::uint64_t> made_before_;
@@ -325,7 +329,7 @@ TilesCourse make_tiles(const TilesOptions& options, const Ranks& ranks, const De
   for (std::size_t rank = 0; rank < of_ranks.size(); ++rank) {
     if (of_ranks[rank] == 0) idle.push_back(rank);
   }
-  if (ranks.rank == 0 && !idle.empty()) {
+  if (ranks.rank == 0 && !numbers.empty() && !idle.empty()) {
     print_note(fmt::format("there were {} tiles to make; these ranks made none: {}", numbers.size(),
                            fmt::join(idle, ", ")));
   }
