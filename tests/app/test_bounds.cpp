@@ -102,6 +102,11 @@ BOOST_AUTO_TEST_CASE(a_picture_shows_as_much_of_a_period_as_it_has_room_for) {
       BOOST_TEST(mapped.view.x == c.first);
       BOOST_TEST(mapped.view.size().width() == c.pixels);
       BOOST_TEST(mapped.outside == (c.pixels == 10 ? 0u : 2u));
+      // Wherever they end along the other axis.
+      mapping.bounds.y0 = 2;
+      const View part = map_points({{1, 1}, {4, 2}, {7, 3}}, mapping, Size(width, 2)).view;
+      BOOST_TEST(part.x == c.first);
+      BOOST_TEST(part.size().width() == c.pixels);
     }
   }
 }
