@@ -86,7 +86,7 @@ std::vector<CellRow> cells_on_globe(const MeasuredDiagram& of, const std::vector
                                     const std::vector<float>& distances,
                                     const std::vector<std::uint32_t>& neighbours) {
   const std::vector<GlobeSum> sums = sums_of(of, labels, distances);
-  const std::vector<std::optional<Point>> points = of.seeds->read_given();
+  const std::vector<std::optional<Point>> points = points_on_globe(*of.seeds);
   std::vector<CellRow> rows;
   for (std::uint32_t id = 0; id < points.size(); ++id) {
     if (!points[id]) continue;

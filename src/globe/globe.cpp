@@ -39,6 +39,15 @@ cl_int4 direction_of(const Point& point) {
 }
 
 /// The longitudes and latitudes of a frame's seeds.
+/// The pixel of a coordinate, from a window's first one; one beside the window stands for all beyond.
+cl_int pixel_in(const Axis& axis, double coordinate, std::int64_t first, std::int64_t length) {
+  double pixel = axis.pixel(coordinate) - static_cast<double>(first);
+  if (axis.is_periodic() && pixel < 0) pixel += static_cast<double>(axis.pixels());
+  return static_cast<cl_int>(std::clamp(pixel, -1.0, static_cast<double>(length)));
+}
+
+}  // namespace
+
 std::vector<std::optional<Point>> points_on_globe(const SeedsFrame& frame) {
   std::vector<std::optional<Point>> points =
       frame.is_off_centre ? frame.read_given() : frame.read_positions();
@@ -51,15 +60,6 @@ std::vector<std::optional<Point>> points_on_globe(const SeedsFrame& frame) {
   }
   return points;
 }
-
-/// The pixel of a coordinate, from a window's first one; one beside the window stands for all beyond.
-cl_int pixel_in(const Axis& axis, double coordinate, std::int64_t first, std::int64_t length) {
-  double pixel = axis.pixel(coordinate) - static_cast<double>(first);
-  if (axis.is_periodic() && pixel < 0) pixel += static_cast<double>(axis.pixels());
-  return static_cast<cl_int>(std::clamp(pixel, -1.0, static_cast<double>(length)));
-}
-
-}  // namespace
 
 std::shared_ptr<const GlobeSeeds> seeds_on_globe(const SeedsFrame& frame) {
   std::vector<cl_int4> directions;

@@ -1,6 +1,10 @@
 // Seeds and pixels on the globe, as kernels of great circles take them: see kernels/globe/globe.cl.
 #pragma once
 
+#include <memory>
+#include <optional>
+#include <vector>
+
 #include "core/seeds_frame.hpp"
 #include "exact_cells/sites.hpp"
 #include "measures/measurement.hpp"
@@ -22,6 +26,9 @@ struct GlobeSeeds {
 /// Other boxes of a tree: of each group BOX_NUMBERS times eight numbers, of which the first three are whole
 /// and the others floats.
 std::vector<cl_int> boxes_along(const DirectionSites& tree);
+
+/// The longitudes and latitudes of a frame's seeds: of those that are snapped the centres of their pixels.
+std::vector<std::optional<Point>> points_on_globe(const SeedsFrame& frame);
 
 std::shared_ptr<const GlobeSeeds> seeds_on_globe(const SeedsFrame& frame);
 

@@ -144,6 +144,9 @@ BOOST_AUTO_TEST_CASE(seeds_on_pixels_have_them) {
   Field<float> distances;
   distance_field(diagram, distances);
   BOOST_TEST(distances.read()[8 * 36 + 18] < 1e-5f);
+  const Point seed = cell_table(diagram).front().seed;
+  BOOST_TEST(seed.x == 5);
+  BOOST_TEST(seed.y == 5);
 }
 
 BOOST_AUTO_TEST_CASE(windows_are_parts_of_the_map) {
