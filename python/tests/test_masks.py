@@ -267,6 +267,7 @@ def test_regions_grow_by_whole_pixels(size):
         expected = segmentation.expand_labels(row, pixels * along * (1 + 1e-15), size)  # and what is as far but for rounding
         assert np.array_equal(expanded, expected), pixels
         assert np.count_nonzero(vorocl.expand_labels(row[0], pixels * along, along)) == pixels + 1
+    assert np.count_nonzero(vorocl.expand_labels([7, 0, 0, 0, 0], 0.3, 0.1)) == 4
 
 
 @pytest.mark.parametrize("sizes", SIZES[:5])

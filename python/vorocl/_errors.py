@@ -21,7 +21,7 @@ class BadPoint(BadArgument):
     row : int
         The row of `points`.
     value : tuple of float
-        The point, (x, y), as it was given.
+        Its x and y, as they were given. The message has z, too.
     """
 
     def __init__(self, message: str, row: int, value: Tuple[float, float]) -> None:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import inspect
 import math
+import sys
 import threading
 from typing import TYPE_CHECKING, Any, Callable, NamedTuple, Optional, Sequence, Tuple, TypeVar, Union
 
@@ -204,7 +205,8 @@ def _transform(
         if indices is not None:
             indices[0] = nearest
         if values is not None:
-            values.view(pixels.dtype)[away <= farthest] = pixels[nearest[away <= farthest]]
+            grown = away <= farthest * (1 + 4 * sys.float_info.epsilon)  # as in planes
+            values.view(pixels.dtype)[grown] = pixels[nearest[grown]]
         return True
     lengths = tuple(sizes or (1.0,) * pixels.ndim)
     if pixels.ndim == 3 and 1 in (shape[0], shape[2]):  # a plane, which lies in memory as a volume with this axis does
@@ -395,8 +397,8 @@ def expand_labels(
     label_image : array_like
         One to three dimensions, of numbers; 0 is the background, and NaN and the masked pixels of a masked array are as 0.
     distance : float, optional
-        How far regions grow, in pixels or in units of `spacing`: as far as this and no farther. ``math.inf`` is until no
-        background is left.
+        How far regions grow, in pixels or in units of `spacing`: as far as this and no farther, but for a rounding, so that
+        three pixels of 0.1 are 0.3. ``math.inf`` is until no background is left.
     spacing : float or sequence of float, optional
         The size of a pixel: a number, or one for each axis; none is more than 1,000 times another one.
     <device>

@@ -39,7 +39,7 @@ class Grid:
     Raises
     ------
     BadArgument
-        If no diagram can have it.
+        If it is not possible. What diagrams cannot have besides, those that make them say.
 
     Examples
     --------

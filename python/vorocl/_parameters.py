@@ -69,10 +69,10 @@ tilt : float or (float, float, float), optional
     "outside": """\
 outside : {"count", "absent", "refuse"}, optional
     What becomes of points outside the grid or the bounds. "count": the grid is a window of a larger plane, and they are
-    seeds too. A method that floods refuses them. "exact" refuses one that may own pixels and lies more than 2**18 pixels
-    away, unless it is snapped. "absent": they have no cell. "refuse": they
-    are an error. With the last two, a point at x1 or y1 is in the last pixel, as along the other axis of a periodic
-    grid. In a volume, and with a `spacing`, "count" refuses too.""",
+    seeds too. A method that floods refuses them. "exact" refuses one that may own pixels and lies more than 2**18
+    pixels away, unless it is snapped. "absent": they have no cell. "refuse": they are an error. With the last two, a
+    point at x1 or y1 of the bounds is in the last pixel, as along the other axis of a periodic grid. In a volume, and
+    with a `spacing`, "count" refuses too.""",
     "y_up": """\
 y_up : bool, optional
     Whether y of the points goes up: rows are counted from the bottom then. A point that lies between two rows belongs to
