@@ -37,64 +37,98 @@ kernel void mark_pixels(global const uchar* restrict pixels, int bytes, int has_
 
 // SEEDS as marks: their pixels are marked, and `labels` has the id of the seed there, the lowest one of several. What
 // other pixels of `labels` hold does not matter. Each work-item paints rows of its own, and looks at all seeds from the
-// last one on: so the lowest id comes last. Its own are gathered first, for where there are many items they are few.
-#define SEEDS_AHEAD 64  // whose pixels are loaded before they are painted
-#define SEEDS_AT_ONCE (8 * SEEDS_AHEAD)
+// last one on: so the lowest id comes last. Of many work-items each has few seeds, and gathers them first.
+#define SEEDS_AHEAD 32  // whose pixels are loaded before they are painted
+#define SEEDS_AT_ONCE (16 * SEEDS_AHEAD)
+#define FEW_PAINTERS 4
 typedef struct {
+  uint first, low, own;  // a work-item's first row; its positions: from `low` on, so many
   uint width, height, words, bits_x, bits_y;
   global ushort* marks;
-  global uint* labels;
-  // The seeds that are gathered: `held` in all, of which so many are loaded and so many painted.
-  uint position[SEEDS_AT_ONCE + 2 * STRIP], id[SEEDS_AT_ONCE + 2 * STRIP];
-  int held, loaded, painted;
+  global uint *counts, *labels;
 } painter_t;
+typedef struct {
+  uint position[SEEDS_AT_ONCE + 2 * STRIP], id[SEEDS_AT_ONCE + 2 * STRIP];
+  int held, loaded, painted;  // so many
+} gathered_t;
 
-INLINE uint position_of_row(uint row, const painter_t* p) {
-  return (row / p->height << p->bits_y | row % p->height) << p->bits_x;
+// Positions come in the order of rows.
+static inline uint position_of_row(uint row, uint height, uint bits_x, uint bits_y) {
+  return (row / height << bits_y | row % height) << bits_x;
 }
+INLINE int16 are_own(uint16 position, const painter_t* p) { return position - p->low < (uint16)p->own; }
 INLINE uint16 columns_of_seeds(uint16 position, const painter_t* p) { return position & ((1u << p->bits_x) - 1); }
 INLINE uint16 rows_of_seeds(uint16 position, const painter_t* p) {
   const uint shift_z = min(p->bits_x + p->bits_y, 31u), mask_z = shift_z < 31 ? ~0u : 0u;
   return (position >> shift_z & mask_z) * p->height + (position >> p->bits_x & ((1u << p->bits_y) - 1));
 }
 
-// Gathers seeds, the last one first. Without a branch, which random seeds would take one way as often as the other.
-INLINE void gather_seeds(uint16 positions, int16 are_own, uint id, painter_t* p) {
-  uint position[STRIP];
-  int is_own[STRIP], held = p->held;
-  vstore16(positions, 0, position);
-  vstore16(are_own, 0, is_own);
-#pragma unroll
-  for (int i = STRIP - 1; i >= 0; --i) {
-    p->position[held] = position[i];
-    p->id[held] = id + (uint)i;
-    held -= is_own[i];
-  }
-  p->held = held;
-}
-
-INLINE void load_strip(painter_t* p) {
-  const uint16 position = vload16(0, p->position + p->loaded);
+INLINE void load_seeds(uint16 position, const painter_t* p) {
+  const uint16 at = rows_of_seeds(position, p) * p->width + columns_of_seeds(position, p);
   uint pixel[STRIP];
-  vstore16(rows_of_seeds(position, p) * p->width + columns_of_seeds(position, p), 0, pixel);
+  vstore16(select((uint16)(p->first * p->width), at, are_own(position, p)), 0, pixel);
 #pragma unroll
   for (int i = 0; i < STRIP; ++i) PREFETCH(p->labels + pixel[i]);
-  p->loaded += STRIP;
 }
 
-INLINE void paint_strip(painter_t* p) {
-  const uint16 position = vload16(0, p->position + p->painted);
+// Without a branch, which random seeds would take one way as often as the other: those of other rows are painted where
+// they do no harm.
+INLINE void paint(uint16 position, uint16 ids, const painter_t* p) {
   const uint16 row = rows_of_seeds(position, p), x = columns_of_seeds(position, p);
-  uint pixel[STRIP], word[STRIP], bit[STRIP];
+  const int16 own = are_own(position, p);
+  uint id[STRIP], pixel[STRIP], word[STRIP], bit[STRIP];
+  int is_own[STRIP];
+  vstore16(ids, 0, id);
   vstore16(row * p->width + x, 0, pixel);
-  vstore16(row * p->words + x / STRIP, 0, word);
-  vstore16((uint16)1u << (x & (STRIP - 1)), 0, bit);
+  vstore16(select((uint16)(p->first * p->words), row * p->words + x / STRIP, own), 0, word);
+  vstore16(as_uint16(own) & ((uint16)1u << (x & (STRIP - 1))), 0, bit);
+  vstore16(own, 0, is_own);
 #pragma unroll
   for (int i = 0; i < STRIP; ++i) {
-    p->labels[pixel[i]] = p->id[p->painted + i];
+    global uint* const label = is_own[i] ? p->labels + pixel[i] : p->counts + p->first;
+    *label = id[i];
     p->marks[word[i]] |= (ushort)bit[i];
   }
-  p->painted += STRIP;
+}
+
+INLINE void gather_seeds(uint16 positions, uint16 ids, gathered_t* g, const painter_t* p) {
+  uint position[STRIP], id[STRIP];
+  int is_own[STRIP], held = g->held;
+  vstore16(positions, 0, position);
+  vstore16(ids, 0, id);
+  vstore16(are_own(positions, p), 0, is_own);
+#pragma unroll
+  for (int i = 0; i < STRIP; ++i) {
+    g->position[held] = position[i];
+    g->id[held] = id[i];
+    held -= is_own[i];
+  }
+  g->held = held;
+}
+
+static inline void paint_rest(gathered_t* g, const painter_t* p) {
+  for (int i = g->held; i % STRIP != 0; ++i) g->position[i] = EMPTY_SEED;
+  for (; g->painted < g->held; g->painted += STRIP)
+    paint(vload16(0, g->position + g->painted), vload16(0, g->id + g->painted), p);
+  g->held = g->loaded = g->painted = 0;
+}
+
+// Paints some of them, and loads others that come after them.
+INLINE void paint_gathered(gathered_t* g, const painter_t* p) {
+  if (g->held - g->loaded >= STRIP) {
+    load_seeds(vload16(0, g->position + g->loaded), p);
+    g->loaded += STRIP;
+    if (g->loaded <= SEEDS_AHEAD) return;
+    paint(vload16(0, g->position + g->painted), vload16(0, g->id + g->painted), p);
+    g->painted += STRIP;
+  }
+  if (g->held < SEEDS_AT_ONCE) return;
+  const int moved = g->painted;
+  for (int i = 0; i + moved < g->held; i += STRIP) {
+    vstore16(vload16(0, g->position + moved + i), 0, g->position + i);
+    vstore16(vload16(0, g->id + moved + i), 0, g->id + i);
+  }
+  g->held -= moved, g->loaded -= moved, g->painted = 0;
 }
 
 ITEM_KERNEL void paint_seeds(global const uint* restrict positions, uint count, int width, int height, int rows,
@@ -102,43 +136,35 @@ ITEM_KERNEL void paint_seeds(global const uint* restrict positions, uint count, 
   const long parts = (long)get_global_size(0), item = (long)get_global_id(0);
   const uint words = (uint)SHORTS_OF_ROW(width);
   const uint first = (uint)(item * rows / parts), end = (uint)((item + 1) * rows / parts);
+  const uint low = position_of_row(first, (uint)height, (uint)bits_x, (uint)bits_y);
+  const uint last = position_of_row(end - 1, (uint)height, (uint)bits_x, (uint)bits_y);
+  const painter_t p = {first, low, last - low + (1u << bits_x), (uint)width, (uint)height, words, (uint)bits_x,
+                       (uint)bits_y, marks, counts, labels};
   for (size_t i = (size_t)first * words; i < (size_t)end * words; ++i) marks[i] = 0;
-  painter_t p;
-  p.width = (uint)width, p.height = (uint)height, p.words = words, p.bits_x = (uint)bits_x, p.bits_y = (uint)bits_y;
-  p.marks = marks, p.labels = labels;
-  p.held = p.loaded = p.painted = 0;
-  // Positions come in the order of rows.
-  const uint low = position_of_row(first, &p), own = position_of_row(end - 1, &p) - low + (1u << bits_x);
+  gathered_t g;
+  g.held = g.loaded = g.painted = 0;
   uint left = count;
-  for (; left % STRIP != 0; --left) {
-    p.position[p.held] = positions[left - 1];
-    p.id[p.held] = left - 1;
-    p.held += positions[left - 1] - low < own;
+  for (; left % STRIP != 0; ++g.held) {
+    --left;
+    g.position[g.held] = positions[left];
+    g.id[g.held] = left;
   }
+  paint_rest(&g, &p);
+  const uint ahead = (uint)parts * SEEDS_AHEAD;
   while (left > 0) {
     left -= STRIP;
-    const uint16 position = vload16(0, positions + left);
-    const int16 are_own = position - low < (uint16)own;
-    if (!SOME(are_own)) continue;
-    gather_seeds(position, are_own, left, &p);
-    if (p.held - p.loaded >= STRIP) {
-      load_strip(&p);
-      if (p.loaded > SEEDS_AHEAD) paint_strip(&p);
+    const uint16 position = vload16(0, positions + left).sfedcba9876543210;
+    const uint16 ids = left + (STRIP - 1) - as_uint16(LANE);
+    if (parts > FEW_PAINTERS) {
+      if (!SOME(are_own(position, &p))) continue;
+      gather_seeds(position, ids, &g, &p);
+      paint_gathered(&g, &p);
+    } else {
+      if (left >= ahead) load_seeds(vload16(0, positions + left - ahead), &p);
+      paint(position, ids, &p);
     }
-    if (p.held < SEEDS_AT_ONCE) continue;
-    const int moved = p.painted;
-    for (int i = 0; i + moved < p.held; i += STRIP) {
-      vstore16(vload16(0, p.position + moved + i), 0, p.position + i);
-      vstore16(vload16(0, p.id + moved + i), 0, p.id + i);
-    }
-    p.held -= moved, p.loaded -= moved, p.painted = 0;
   }
-  // The last one is painted again where a strip has room.
-  for (int i = p.held; i % STRIP != 0; ++i) {
-    p.position[i] = p.position[p.held - 1];
-    p.id[i] = p.id[p.held - 1];
-  }
-  while (p.painted < p.held) paint_strip(&p);
+  paint_rest(&g, &p);
   for (uint row = first; row < end; ++row) {
     uint marks_of_row = 0;
     for (uint i = 0; i < words; ++i) marks_of_row += popcount((uint)marks[(size_t)row * words + i]);
