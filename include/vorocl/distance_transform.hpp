@@ -67,9 +67,10 @@ enum class Marked {
 /// Distances are compared as whole numbers. Where the lengths are to each other as whole numbers up to 1,000
 /// (0.065, 0.065 and 0.2 are as 13, 13 and 40; to a rounding of double), these are taken, and nothing is
 /// rounded; in images with a side of more than 8,192 pixels the numbers may have to be less. Else the squares
-/// of the lengths are rounded to 2^-48 of the square of the image's diagonal D (2^-46 where a side has more
-/// than 16,384 pixels, 2^-47 where it has more than 8,192). A pixel may take a marked one whose distance is
-/// greater by a part of 2^-49 (D / s)^2, where s is the least length: 2e-9 where D is 1,000 s.
+/// of the lengths are rounded for comparisons: a pixel may take a marked one whose distance is greater by a
+/// part of about n (D / s)^2 / 2^62. D is the image's diagonal and s the least length; n is the number of
+/// pixels of the longest side, rounded up to a power of two of at least 64. It is 2e-10 where D is 1,000 s
+/// and n 1,024. An image where it is more than 1 % is refused.
 struct PixelSize {
   double x = 1;
   double y = 1;

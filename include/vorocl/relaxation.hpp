@@ -64,7 +64,7 @@ VOROCL_API double energy(const Diagram& diagram);
 /// pixel; seeds of Seeds::random() and Seeds::from_mask() begin at the centres of their pixels. Seeds of
 /// points with Snap::to_pixels go to the pixel nearest to the centroid (if two are, and the seed is on one of
 /// them, it stays): they soon stay where their cells are far from even (docs/relaxation.md). So do all seeds
-/// of volumes and spaced planes, which go to the nearest voxel or stay in it. Ends after so
+/// of volumes and spaced planes, which go to the nearest voxel: a seed that lies in it stays. Ends after so
 /// many rounds, when no seed would move by the tolerance, or when the observer says so. In the end the
 /// diagram is that of the seeds.
 ///

@@ -447,7 +447,7 @@ def distance_transform_edt(
     """Give every non-zero pixel its distance to the nearest pixel that is zero, as SciPy's function of this name does.
 
     ``from vorocl import distance_transform_edt`` instead of ``from scipy.ndimage import ...`` is what changes. The
-    distances are SciPy's, to the bit without a `sampling`, else to a rounding. Of several zeros at the least distance
+    distances are SciPy's, to the bit without a `sampling`, else to a rounding (see there). Of several zeros at the least distance
     SciPy leaves open which one `indices` names; here it is the one that comes first, slice by slice and row by row.
 
     Parameters
@@ -457,8 +457,9 @@ def distance_transform_edt(
     sampling : float or sequence of float, optional
         The size of a pixel: a number, or one for each axis; none is more than 1,000 times another one. Sizes that are to
         each other as whole numbers up to 1,000, such as 0.065, 0.065 and 0.2, are taken exactly. Others are rounded for
-        comparisons: a zero whose distance is greater by a part of 2**-49 (D / s)**2 may be taken, where D is the image's
-        diagonal and s the least size (2e-9 where D is 1,000 s; four times as much where a side has 16,384 pixels).
+        comparisons: a zero whose distance is greater by a part of about n (D / s)**2 / 2**62 may be taken. D is the
+        image's diagonal and s the least size; n is the number of pixels of the longest side, rounded up to a power of
+        two. It is 2e-10 where D is 1,000 s and n 1,024. Images where it is more than 1 % are refused.
     return_distances, return_indices : bool, optional
         What is wanted: one of them or both.
     distances : ndarray, optional
@@ -638,8 +639,8 @@ def relax(
     """Move points to the centroids of their cells, again and again: Lloyd's algorithm on pixels, or on polygons.
 
     A round moves every point to its cell's centroid, rounded to 1/4096 of a pixel, in Euclidean diagrams; to the pixel
-    or voxel that is nearest to it where points are snapped, and in volumes, where it stays if it lies there. Ctrl-C ends
-    it after a round.
+    or voxel that is nearest to it where points are snapped, and in volumes, where a point that lies in it stays. Ctrl-C
+    ends it after a round.
 
     Parameters
     ----------
@@ -654,7 +655,7 @@ def relax(
     exact : bool, optional
         Move the points to the centroids of their polygons, in volumes of their polyhedra, as `exact_cells` cuts them:
         anywhere, so that cells become as even as polygons do where there are four pixels or more for each point. The
-        energies and the end are of pixels. Without a density, and not of snapped points.
+        energies are of pixels, and it ends when no point moves by 1/64 of one. Without a density, and not of snapped points.
     <method, outside, snap, device>
 
     Returns

@@ -39,7 +39,7 @@ class Grid:
     Raises
     ------
     BadArgument
-        If it is not possible. What diagrams cannot have besides, those that make them say.
+        If there is no such grid. What makes diagrams has further limits, which its errors name.
 
     Examples
     --------

@@ -38,7 +38,6 @@ cl_int4 direction_of(const Point& point) {
   return direction;
 }
 
-/// The longitudes and latitudes of a frame's seeds.
 /// The pixel of a coordinate, from a window's first one; one beside the window stands for all beyond.
 cl_int pixel_in(const Axis& axis, double coordinate, std::int64_t first, std::int64_t length) {
   double pixel = axis.pixel(coordinate) - static_cast<double>(first);

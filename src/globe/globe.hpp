@@ -28,6 +28,7 @@ struct GlobeSeeds {
 std::vector<cl_int> boxes_along(const DirectionSites& tree);
 
 /// The longitudes and latitudes of a frame's seeds: of those that are snapped the centres of their pixels.
+/// Throws BadPoint if one is no latitude.
 std::vector<std::optional<Point>> points_on_globe(const SeedsFrame& frame);
 
 std::shared_ptr<const GlobeSeeds> seeds_on_globe(const SeedsFrame& frame);

@@ -15,14 +15,16 @@ namespace {
 using Lengths = std::array<double, 3>;
 
 constexpr double most_apart = 1000;
+constexpr double most_wrong = 0.01;                   // of a distance, by rounding
 constexpr double shortest = 1e-140, longest = 1e140;  // the squares of distances are doubles
 
-/// Of the square of an image's diagonal in units. Keys have 62 bits for it and the number of a site; rounded
-/// squares of lengths make it at most twice as long.
+/// The bits of the square of an image's diagonal, in units. A key has 62 for it and the number of a site, and
+/// one is left for what rounding adds. Costs of ways up to ten times a side of one pixel must fit, too: so 55
+/// at most.
 int bits_of_diagonal(const std::array<int, 3>& sides) {
   int bits = 61;
   for (int longest = *std::max_element(sides.begin(), sides.end()) - 1; longest > 0; longest /= 2) --bits;
-  return std::min(bits, 48);
+  return std::min(bits, 55);
 }
 
 /// The square of an image's diagonal, from the squares of a pixel's lengths.
@@ -81,9 +83,17 @@ WholeSizes whole_sizes(const PixelSize& size, const std::array<int, 3>& sides) {
   const Lengths squares = {size.x * size.x, size.y * size.y, size.z * size.z};
   WholeSizes whole;
   whole.unit = std::ldexp(diagonal_of(squares, sides), -bits);
+  const double least = *std::min_element(squares.begin(), squares.end());
+  if (whole.unit / (2 * least) > most_wrong) {
+    std::ostringstream text;
+    text << "the lengths " << std::sqrt(least) << " and " << greatest
+         << " of a pixel are too far apart for an image of " << sides[0] << " x " << sides[1] << " x "
+         << sides[2]
+         << " pixels: cut it into parts that overlap, or give lengths that are whole numbers up to 1,000";
+    throw Error(text.str());
+  }
   for (std::size_t axis = 0; axis < lengths.size(); ++axis) {
-    const double square = std::nearbyint(squares[axis] / whole.unit);
-    whole.squares[axis] = std::max<std::int64_t>(1, static_cast<std::int64_t>(square));
+    whole.squares[axis] = static_cast<std::int64_t>(std::nearbyint(squares[axis] / whole.unit));
   }
   return whole;
 }

@@ -11,7 +11,7 @@ export VOROCL_DEVICE="Portable Computing Language"
 make() { # UNITS
   export POCL_MAX_PTHREAD_COUNT=$1
   mkdir "$1"
-  "$command" devices | grep -q "CPU, $1 compute units" || { echo "PoCL has not $1 compute units" >&2; exit 1; }
+  "$command" devices | grep "CPU, $1 compute units" >/dev/null || { echo "PoCL has not $1 compute units" >&2; exit 1; }
   # Seeds that are painted, dense ones in planes and volumes; then those that are sorted.
   "$command" render --random 60007 --size 523x391 --labels "$1/dense.npy" >/dev/null
   "$command" render --random 50021 --size 71x67x53 --labels "$1/dense-volume.npy" >/dev/null

@@ -111,6 +111,18 @@ BOOST_AUTO_TEST_CASE(a_picture_shows_as_much_of_a_period_as_it_has_room_for) {
   }
 }
 
+BOOST_AUTO_TEST_CASE(a_period_that_the_picture_holds_stays_in_it_when_it_is_rounded) {
+  Mapping mapping;
+  mapping.periodic = Axes::x;
+  mapping.bounds = {0, 0, 12, 12};
+  for (const double first : {0.4, 0.5, 1.4, 1.5, 1.6}) {
+    mapping.domain = Bounds{first, 0, 12, 12};
+    const View view = map_points({{5, 5}}, mapping, Size(12, 12)).view;
+    BOOST_TEST(view.window.is_whole());
+    BOOST_TEST(view.x + view.size().width() <= 12);
+  }
+}
+
 BOOST_AUTO_TEST_CASE(units_are_those_of_the_data) {
   Mapping mapping;
   mapping.bounds = {0, 0, 4, 2};

@@ -426,7 +426,8 @@ BOOST_AUTO_TEST_CASE(lengths_of_any_ratio_find_the_nearest) {
   for (const auto& [grid, size] : {std::pair{Grid(1000, 2), PixelSize{1.2246, 999.9, 1}},
                                    {Grid(3, 900), {300.1, 0.3337, 1}},
                                    {Grid(40, 9, 200), {7.77, 313.1, 0.5013}},
-                                   {Grid(300, 300), {1.337, 100.3, 1}}}) {
+                                   {Grid(300, 300), {1.337, 100.3, 1}},
+                                   {Grid(16385, 30), {30.01, 1.0003, 1}}}) {
     const std::size_t pixels = grid.pixels(), width = static_cast<std::size_t>(grid.width()),
                       height = static_cast<std::size_t>(grid.height());
     Bytes image(pixels, 1);
@@ -452,8 +453,18 @@ BOOST_AUTO_TEST_CASE(lengths_of_any_ratio_find_the_nearest) {
         nearest = std::min(nearest, std::hypot(zero.x - p.x, zero.y - p.y, zero.z - p.z));
       worst = std::max(worst, nearest == 0 ? distances[i] : distances[i] / nearest - 1);
     }
-    BOOST_TEST(worst < 1e-7);
+    double most = 64;  // pixels of the longest side, or the next power of two
+    while (most < double(std::max({grid.width(), grid.height(), grid.depth()}))) most *= 2;
+    const Point last = place_of(pixels - 1);
+    const double least = std::min({size.x, size.y, size.z}), longest = std::hypot(last.x, last.y, last.z);
+    BOOST_TEST(worst < most * longest * longest / (least * least) * 0x1p-62 + 1e-14);
   }
+  // Where that would be more than 1 %.
+  check_error(
+      [] {
+        DistanceTransform(test_device(), Grid(32768, 300), {999.9, 1.0003, 1});
+      },
+      {"1.0003 and 999.9", "too far apart", "32768 x 300"});
 }
 
 /// Behind the end of a short row of long pixels no mark is near enough for keys of 32 bits, and what a lane

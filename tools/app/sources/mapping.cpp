@@ -99,6 +99,7 @@ class PlacedAxis {
     const bool moves = !holds && !is_held;
     const double low = moves ? told.low : told.first, first = (low - told.low) * scale;
     begin_ = std::llround(first);
+    if (is_held) begin_ = std::min(begin_, pixels_ - length);  // rounding may move it beyond the picture
     // The middle of the period, less that of these pixels.
     const double shift =
         first - static_cast<double>(begin_) + (period * scale - static_cast<double>(length)) / 2;

@@ -31,8 +31,8 @@ struct Mapping {
   bool has_one_scale = true;     ///< of both axes in all frames; without it, lengths stay in pixels
 };
 
-/// Points in pixels of the grid that the diagram is a window of: all of it where the picture shows that, and
-/// all points.
+/// Points in pixels of the grid that the diagram is a window of: along an axis all of it where the picture
+/// shows that.
 struct MappedPoints {
   View view;
   std::vector<Point> places;
