@@ -64,9 +64,11 @@ INLINE uint16 rows_of_seeds(uint16 position, const painter_t* p) {
 }
 
 INLINE void load_seeds(uint16 position, const painter_t* p) {
+  const int16 own = are_own(position, p);
+  if (!SOME(own)) return;
   const uint16 at = rows_of_seeds(position, p) * p->width + columns_of_seeds(position, p);
   uint pixel[STRIP];
-  vstore16(select((uint16)(p->first * p->width), at, are_own(position, p)), 0, pixel);
+  vstore16(select((uint16)(p->first * p->width), at, own), 0, pixel);
 #pragma unroll
   for (int i = 0; i < STRIP; ++i) PREFETCH(p->labels + pixel[i]);
 }
@@ -155,13 +157,14 @@ ITEM_KERNEL void paint_seeds(global const uint* restrict positions, uint count, 
     left -= STRIP;
     const uint16 position = vload16(0, positions + left).sfedcba9876543210;
     const uint16 ids = left + (STRIP - 1) - as_uint16(LANE);
-    if (parts > FEW_PAINTERS) {
-      if (!SOME(are_own(position, &p))) continue;
+    const bool are_few = parts <= FEW_PAINTERS;
+    if (are_few && left >= ahead) load_seeds(vload16(0, positions + left - ahead), &p);
+    if (!SOME(are_own(position, &p))) continue;
+    if (are_few) {
+      paint(position, ids, &p);
+    } else {
       gather_seeds(position, ids, &g, &p);
       paint_gathered(&g, &p);
-    } else {
-      if (left >= ahead) load_seeds(vload16(0, positions + left - ahead), &p);
-      paint(position, ids, &p);
     }
   }
   paint_rest(&g, &p);
